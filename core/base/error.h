@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace pssmlt {
 
@@ -24,6 +25,8 @@ class Error : public std::runtime_error {
   // Formats "file:line:column: message\n  <line of the file>\n       ^". Reads the file again to
   // quote the line; leaves the quotation out if the file cannot be read any more.
   Error(const Location& where, const std::string& message);
+  // Same, quoting the line given, for text that is in memory only.
+  Error(const Location& where, const std::string& message, std::string_view line);
 };
 
 // A failure that is not the input's fault (disk full, out of memory): exit code 1.

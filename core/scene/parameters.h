@@ -21,10 +21,14 @@ class Texture;
 class SceneResolver;
 
 // pbrt-v4's parameter types; aliases (point, vector, normal) are folded by the parser.
+// (gcc 12 takes the scoped enumerator Rgb for a shadow of the type Rgb.)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
 enum class ParameterType : uint8_t {
   Integer, Float, Point2, Vector2, Point3, Vector3, Normal, Bool, String, Texture, Spectrum, Rgb,
   Blackbody
 };
+#pragma GCC diagnostic pop
 std::string_view to_string(ParameterType type);
 
 // One parameter as written. Exactly one of the value arrays is filled, by the type: ints (Integer),
@@ -51,7 +55,7 @@ struct ParameterDoc {
   std::string name, type, fallback, unit, doc;
 };
 
-// A mesh parameter's array, shared with the file's data where no conversion is needed.
+// Reads a ParameterSet, which must outlive it. Not shared between threads.
 class Parameters {
  public:
   // set: as written; where: of the directive; owner: e.g. `material "diffuse"` for messages;
@@ -91,6 +95,9 @@ class Parameters {
   std::vector<vec2> points2(std::string_view name, std::string_view unit, std::string_view doc);
   std::vector<vec3> points3(std::string_view name, std::string_view unit, std::string_view doc);
   std::vector<vec3> normals(std::string_view name, std::string_view doc);
+  std::vector<std::string> texts(std::string_view name, std::string_view doc);
+  // Only of type rgb (grids of colours), taken as linear components of the scene's colour space.
+  std::vector<Rgb> rgbs(std::string_view name, std::string_view unit, std::string_view doc);
 
   // Textures: a named texture, or a constant from the value given, or from the fallback.
   std::shared_ptr<const Texture<float>> float_texture(std::string_view name, float fallback,
@@ -104,6 +111,9 @@ class Parameters {
 
   // True if the scene gives the parameter (does not count as reading it).
   bool has(std::string_view name) const;
+  // The type it is given with, for parameters that may be several things ("float eta" or
+  // "spectrum eta"); nullopt if not given. Does not count as reading it.
+  std::optional<ParameterType> type(std::string_view name) const;
   // Throws an Error naming the first parameter that nobody read, with a suggestion from the names
   // that were asked for.
   void check_all_read() const;
@@ -125,7 +135,16 @@ class Parameters {
 
  private:
   Parameters() = default;
+  // The parameter as written if it has one of the types, null if it is not given; remembers that
+  // the name was asked for. Throws Error on another type.
   const Parameter* find(std::string_view name, std::initializer_list<ParameterType> accepted);
+  // The same for exactly one value (a point is one value of three numbers).
+  const Parameter* find_one(std::string_view name, std::initializer_list<ParameterType> accepted);
+  [[noreturn]] void fail_at(const Parameter& p, const std::string& message) const;
+  void check_finite(const Parameter& p) const;
+  template <typename V>
+  std::vector<V> tuples(std::string_view name, ParameterType type, std::string_view unit,
+                        std::string_view doc);
   void document(std::string_view name, std::string_view type, std::string fallback,
                 std::string_view unit, std::string_view doc);
 
