@@ -1,0 +1,17 @@
+// The log: spdlog behind three functions, so that few files pay for its headers.
+#pragma once
+
+#include <string>
+
+namespace pssmlt {
+
+enum class LogLevel { quiet, normal, verbose };
+void set_log_level(LogLevel level);
+// Details, shown with --verbose only.
+void log_debug(const std::string& message);
+// One line that every user should see.
+void log_info(const std::string& message);
+// Something that may spoil the picture.
+void log_warning(const std::string& message);
+
+}  // namespace pssmlt

@@ -1,0 +1,29 @@
+// Rays and the offset that keeps them from meeting the surface they start on.
+#pragma once
+
+#include "core/base/math.h"
+
+namespace pssmlt {
+
+struct Ray {
+  vec3 origin{0.f};
+  vec3 direction{0.f, 0.f, 1.f};  // unit length
+  float t_max = infinity;         // [m]
+};
+
+// Origin for a ray leaving `position` toward `direction`: moved along the geometric normal to the
+// side of `direction` by the position's error bound [m per axis], then rounded away, so that it
+// can't lie behind the surface (Pharr, Jakob, Humphreys 2023, section 6.8.6). No absolute epsilon.
+inline vec3 offset_origin(const vec3& position, const vec3& error, const vec3& ng,
+                          const vec3& direction) {
+  const float d = glm::dot(glm::abs(ng), error);
+  const vec3 offset = glm::dot(direction, ng) < 0.f ? -d * ng : d * ng;
+  vec3 p = position + offset;
+  for (int i = 0; i < 3; ++i) {
+    if (offset[i] > 0.f) p[i] = std::nextafter(p[i], infinity);
+    if (offset[i] < 0.f) p[i] = std::nextafter(p[i], -infinity);
+  }
+  return p;
+}
+
+}  // namespace pssmlt

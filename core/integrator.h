@@ -1,0 +1,43 @@
+// Integrators answer "what is f(u)?": one light transport estimate for one point u of primary
+// sample space. They know neither who chooses u nor what becomes of the splats.
+#pragma once
+
+#include <string>
+
+#include "core/sampling/primary_sample.h"
+#include "core/sampling/splats.h"
+#include "core/sampling/workspace.h"
+
+namespace pssmlt {
+
+class Scene;
+class Archive;
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  // Once, before rendering.
+  virtual void prepare(const Scene& scene) = 0;
+  // f(u): adds splats to `out` (empty when called). No allocation, no locks; thread safe. Values
+  // are non-negative and finite; a sample that breaks this is dropped and counted by the caller.
+  virtual void sample(PrimarySample& u, Splats& out, Workspace& workspace) const = 0;
+  // The paths whose light this integrator can find at all, as a path expression
+  // (core/path/path_expression.h) over its strategies. Tests and layers rely on it.
+  virtual std::string sees() const = 0;
+  // True if splats land elsewhere than at the sample's own raster position.
+  virtual bool splats_light() const = 0;
+  // The filter and depth limits of the scene's parameters, as a path expression and bounce range.
+  virtual const class PathLimits& limits() const = 0;
+
+  // Work units to run in parallel before round `round` (photon maps, caches): pass() is a pure
+  // function of (round, unit, u), merge_passes() runs serially after all of them.
+  virtual int passes(int round) const { return (void)round, 0; }
+  virtual void pass(int round, int unit, PrimarySample& u) { (void)round, (void)unit, (void)u; }
+  virtual void merge_passes(int round) { (void)round; }
+  // False if f changes between rounds; such an f cannot be the target of a Markov chain.
+  virtual bool fixed() const { return true; }
+  virtual void save(Archive& archive) const { (void)archive; }
+  virtual void load(Archive& archive) { (void)archive; }
+};
+
+}  // namespace pssmlt

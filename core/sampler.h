@@ -1,0 +1,84 @@
+// Samplers answer "which points u are visited, and how are their splats weighted?". They explore
+// primary sample space in rounds of independent units; the session runs the units of a round in
+// parallel and gives every technique budgets, checkpoints and error estimates.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/integrator.h"
+
+namespace pssmlt {
+
+class RasterMap;
+class Archive;
+
+// Groups for the error estimate: whole rounds or whole chains belong to one group for life.
+inline constexpr int group_count = 32;
+
+// Where a sampler's splats go (the film's face for one unit of work).
+class SplatSink {
+ public:
+  // Adds weight * every splat to a plane of the sampler. Camera splats go to `camera` (the credit
+  // that PrimarySampleOwner::credit() gave for this u), light splats to a pixel of the filter's
+  // support. `group` in [0, group_count).
+  virtual void add(int plane, const Splats& splats, const struct PixelCredit& camera,
+                   double weight, int group) = 0;
+
+ protected:
+  ~SplatSink() = default;
+};
+
+// One thread's tools, handed to every unit that runs on it.
+struct Worker {
+  class PrimarySampleOwner& sample;  // core/sampling/primary_sample_owner.h
+  Splats& splats;
+  Workspace& workspace;
+  class Evaluator& evaluator;        // core/sampling/evaluator.h: calls the integrator safely
+};
+
+// Everything start() may use.
+struct SamplerContext {
+  const Scene& scene;
+  const Integrator& integrator;
+  const RasterMap& raster_map;
+  uint64_t seed = 0;
+  // Runs body(unit, worker) for unit in [0, count) in parallel, returns when all are done.
+  std::function<void(int count, const std::function<void(int, Worker&)>&)> parallel;
+};
+
+class Sampler {
+ public:
+  virtual ~Sampler() = default;
+  // Bootstrap, chain seeds. A pure function of the context's seed (not of thread count or clock).
+  virtual void start(const SamplerContext& context) = 0;
+  // Default budget [samples or mutations per pixel], from the scene's parameters.
+  virtual double default_spp() const = 0;
+  // Independent units of a round, and samples or mutations that the whole round makes.
+  virtual int units(int round) const = 0;
+  virtual double samples(int round) const = 0;
+  // Runs one unit: a pure function of (seed, round, unit, the unit's own state).
+  virtual void run(int round, int unit, SplatSink& sink, Worker& worker) = 0;
+  // Planes this sampler's splats use, and the factor that turns plane sums into radiance after
+  // `rounds` whole rounds. Pixels may be served in interleaved subsets on large images:
+  // subset_of(pixel) says which, scale() the factor there.
+  virtual int planes() const { return 1; }
+  virtual int subsets() const { return 1; }
+  virtual int subset_of(int pixel) const { return (void)pixel, 0; }
+  virtual double scale(int plane, int subset, int rounds) const = 0;
+  // Same for one group alone (the sum over groups of sums is the total): the factor that makes a
+  // group's sum an estimate of the whole picture; 0 if the group has nothing yet.
+  virtual double group_scale(int plane, int group, int rounds) const = 0;
+  // Relative variance of a factor common to all groups (b), to be added to the picture's.
+  virtual double scale_relative_variance() const { return 0.0; }
+  // True for Markov chains: samples are correlated, per-sample clamping is refused.
+  virtual bool is_chain() const { return false; }
+  // State beyond (seed, round): chains, b. load() follows start() with the same context.
+  virtual void save(Archive& archive) const { (void)archive; }
+  virtual void load(Archive& archive) { (void)archive; }
+  // Acceptance rates, b and its error, ... for the summary and --json.
+  virtual void report(nlohmann::json& statistics) const { (void)statistics; }
+};
+
+}  // namespace pssmlt

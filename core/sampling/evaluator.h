@@ -1,0 +1,64 @@
+// Calls an integrator and keeps bad samples away from films, chain states and acceptance ratios.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/integrator.h"
+
+namespace pssmlt {
+
+// Why a sample was dropped.
+enum class Rejection : uint8_t { nan, infinite, negative, too_large, threw, no_raster };
+inline constexpr int rejection_count = 6;
+std::string_view to_string(Rejection cause);
+
+// What replays a dropped sample bit for bit.
+struct ReplayKey {
+  std::string text;  // "sobol:seed:pixel:index" or "u:" + hex numbers
+  Rejection cause;
+  dvec2 raster{0.0};
+};
+
+// Counters shared by all threads of a render; bumped rarely (only on rejection).
+class RejectionLog {
+ public:
+  void count(Rejection cause, const std::string& key, const dvec2& raster);
+  uint64_t total() const;
+  uint64_t of(Rejection cause) const { return counts_[static_cast<size_t>(cause)]; }
+  // The first few keys, for the summary.
+  std::vector<ReplayKey> examples() const;
+
+ private:
+  std::array<std::atomic<uint64_t>, rejection_count> counts_{};
+  mutable std::mutex mutex_;
+  std::vector<ReplayKey> examples_;
+};
+
+class Evaluator {
+ public:
+  Evaluator(const Integrator& integrator, RejectionLog& log) : integrator_(integrator), log_(log) {}
+  // f(u) into `out` (cleared first). False if the sample was dropped: `out` is then empty and the
+  // cause counted with what describes u. Values above 2^40 are too large.
+  bool evaluate(PrimarySample& u, Splats& out, Workspace& workspace);
+  // How a memoryless sampler names the sample about to be evaluated (cheap: stored, not formatted,
+  // until needed). Chains leave it unset: u itself is printed.
+  void name_sample(const char* sampler, uint64_t seed, int64_t pixel, int64_t index);
+  uint64_t samples() const { return samples_; }
+
+ private:
+  bool check(PrimarySample& u, Splats& out);
+  void drop(Rejection cause, PrimarySample& u, Splats& out);
+  const Integrator& integrator_;
+  RejectionLog& log_;
+  const char* sampler_ = nullptr;
+  uint64_t seed_ = 0;
+  int64_t pixel_ = -1, index_ = -1;
+  uint64_t samples_ = 0;
+};
+
+}  // namespace pssmlt

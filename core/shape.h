@@ -1,0 +1,75 @@
+// Shapes: geometry for the ray tracer and area sampling for lights. All in the space that the
+// constructor's transform leads to (render space, or an object's own space for instances).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/base/ray.h"
+#include "core/hit.h"
+
+namespace pssmlt {
+
+// Triangles with optional per-vertex data; index order gives the outside (right hand rule).
+struct TriangleMesh {
+  std::vector<vec3> positions;       // [m]
+  std::vector<vec3> normals;         // empty or one a vertex, unit
+  std::vector<vec2> uvs;             // empty or one a vertex
+  std::vector<glm::uvec3> triangles;
+};
+
+struct Bounds {
+  vec3 min{infinity}, max{-infinity};
+  void add(const vec3& p) { min = glm::min(min, p); max = glm::max(max, p); }
+};
+
+// Where a ray meets a user geometry: distance and the shape's own two coordinates there.
+struct UserHit {
+  float t = 0.f;
+  vec2 uv{0.f};
+};
+
+// A sampled point of the surface.
+struct SurfaceSample {
+  vec3 position{0.f}, error{0.f}, normal{0.f};  // normal: unit, geometric, outside
+  vec2 uv{0.f};
+  uint32_t element = 0;
+  float pdf = 0.f;  // sample_area: [1/m^2]; sample_toward: [1/sr] at the reference
+};
+
+class Shape {
+ public:
+  virtual ~Shape() = default;
+  // The mesh if the shape is one; then intersection is the ray tracer's own and `fill` gets the
+  // triangle and its barycentric coordinates (weights of the second and third vertex).
+  virtual const TriangleMesh* mesh() const { return nullptr; }
+  // User geometry only: bounds and nearest intersection with t in (t_min, ray.t_max).
+  virtual Bounds bounds() const = 0;
+  virtual std::optional<UserHit> intersect(const Ray& ray, float t_min) const {
+    (void)ray, (void)t_min;
+    return std::nullopt;
+  }
+  // Completes position, error, ng, ns, dpdu, dpdv, dndu, dndv, uv of hit.element at `where`.
+  // Positions are recomputed from the surface's own parameters, not from the ray. Sides (ng, ns)
+  // already follow ReverseOrientation and mirroring transforms.
+  virtual void fill(const vec2& where, Hit& hit) const = 0;
+
+  // Surface area [m^2].
+  virtual float area() const = 0;
+  // A point of the surface, density 1/area unless said otherwise in .pdf [1/m^2].
+  virtual SurfaceSample sample_area(const vec2& u) const = 0;
+  // A point as seen from a reference, .pdf in [1/sr]; the default converts sample_area. nullopt
+  // where the point is seen edge-on or from inside its own plane.
+  virtual std::optional<SurfaceSample> sample_toward(const vec3& reference, const vec2& u) const;
+  // Density [1/sr] of sample_toward at a point of this surface.
+  virtual float pdf_toward(const vec3& reference, const vec3& position, const vec3& normal) const;
+};
+
+// Density per area to density per solid angle at `reference` [1/m^2 -> 1/sr]; 0 if edge-on.
+float area_to_solid_angle(float pdf_area, const vec3& reference, const vec3& position,
+                          const vec3& normal);
+
+}  // namespace pssmlt
