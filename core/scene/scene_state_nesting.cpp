@@ -1,0 +1,144 @@
+// The part of SceneState that is a stack: transformations, attributes, objects, imports.
+#include <cmath>
+#include <utility>
+
+#include "core/scene/scene_state.h"
+#include "core/scene/suggest.h"
+
+namespace pssmlt {
+namespace {
+
+std::string begin_name(SceneState::Nested kind) {
+  switch (kind) {
+    case SceneState::Nested::Attribute: return "AttributeBegin";
+    case SceneState::Nested::Transform: return "TransformBegin";
+    case SceneState::Nested::Object: return "ObjectBegin";
+  }
+  return "";
+}
+
+std::string end_name(SceneState::Nested kind) {
+  switch (kind) {
+    case SceneState::Nested::Attribute: return "AttributeEnd";
+    case SceneState::Nested::Transform: return "TransformEnd";
+    case SceneState::Nested::Object: return "ObjectEnd";
+  }
+  return "";
+}
+
+bool all_finite(const dmat4& m) {
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r)
+      if (!std::isfinite(m[c][r])) return false;
+  return true;
+}
+
+}  // namespace
+
+void SceneState::fail_unclosed(const Pushed& open) const {
+  fail(open.where, begin_name(open.kind) + " without " + end_name(open.kind));
+}
+
+void SceneState::push(Nested kind, const Location& where) {
+  if (kind == Nested::Transform && !noted_transform_begin_) {
+    note(where, "TransformBegin and TransformEnd are deprecated; use AttributeBegin");
+    noted_transform_begin_ = true;
+  }
+  pushed_.push_back({kind, where, now_});
+}
+
+void SceneState::pop(Nested kind, const Location& where) {
+  if (pushed_.size() <= import_base_)
+    fail(where, end_name(kind) + " without " + begin_name(kind));
+  Pushed& top = pushed_.back();
+  if (top.kind != kind)
+    fail(where, end_name(kind) + " closes the " + begin_name(top.kind) + " at " +
+                    to_string(top.where));
+  if (kind == Nested::Transform) {  // saves the transformations alone
+    now_.ctm = top.state.ctm;
+    now_.active = top.state.active;
+  } else {
+    now_ = std::move(top.state);
+  }
+  pushed_.pop_back();
+}
+
+void SceneState::object_begin(const std::string& name, const Location& where) {
+  if (in_object_)
+    fail(where, "ObjectBegin inside the definition of object \"" + scene_.objects.back().name +
+                    "\"");
+  if (const auto known = objects_.find(name); known != objects_.end())
+    fail(where, "object \"" + name + "\" is already defined at " +
+                    to_string(scene_.objects[known->second].where));
+  push(Nested::Object, where);
+  objects_[name] = static_cast<uint32_t>(scene_.objects.size());
+  scene_.objects.push_back({name, where, {}});
+  in_object_ = true;
+}
+
+void SceneState::object_end(const Location& where) {
+  pop(Nested::Object, where);
+  in_object_ = false;
+}
+
+void SceneState::object_instance(const std::string& name, const Location& where) {
+  if (in_object_)
+    fail(where, "ObjectInstance inside the definition of object \"" + scene_.objects.back().name +
+                    "\": objects cannot contain instances");
+  scene_.instances.push_back({0, transform(), where});
+  instance_names_.push_back({name, where});
+}
+
+void SceneState::concatenate(const Transform& t, const Location& where) {
+  for (size_t i = 0; i < 2; ++i) {
+    if (!now_.active[i]) continue;
+    now_.ctm[i] = now_.ctm[i] * t;
+    if (!all_finite(now_.ctm[i].matrix()) || !all_finite(now_.ctm[i].inverse_matrix()))
+      fail(where, "the current transformation is singular or overflows");
+  }
+}
+
+void SceneState::concatenate(const dmat4& m, const Location& where) {
+  if (!Transform::is_invertible(m)) fail(where, "the transformation is singular");
+  concatenate(Transform(m), where);
+}
+
+void SceneState::replace(const dmat4& m, const Location& where) {
+  if (!Transform::is_invertible(m)) fail(where, "the transformation is singular");
+  for (size_t i = 0; i < 2; ++i)
+    if (now_.active[i]) now_.ctm[i] = Transform(m);
+}
+
+void SceneState::define_coordinates(const std::string& name) {
+  scene_.coordinate_systems[name] = transform();
+}
+
+void SceneState::use_coordinates(const std::string& name, const Location& where) {
+  const auto found = scene_.coordinate_systems.find(name);
+  if (found == scene_.coordinate_systems.end()) {
+    std::vector<std::string> known;
+    for (const auto& entry : scene_.coordinate_systems) known.push_back(entry.first);
+    fail(where, "coordinate system \"" + name + "\" is not defined" + suggestion(name, known));
+  }
+  const TransformPair& t = found->second;
+  now_.ctm = {t.start, t.animated() ? *t.end : t.start};
+}
+
+void SceneState::transform_times(float start, float end, const Location& where) {
+  if (!(start <= end)) fail(where, "TransformTimes: the start is after the end");
+  now_.start_time = start;
+  now_.end_time = end;
+}
+
+SceneState::Import::Import(SceneState& state)
+    : state_(state), saved_(state.now_), coordinates_(state.scene_.coordinate_systems),
+      base_(std::exchange(state.import_base_, state.pushed_.size())) {}
+
+void SceneState::Import::finish() {
+  if (state_.pushed_.size() > state_.import_base_) state_.fail_unclosed(state_.pushed_.back());
+  state_.now_ = std::move(saved_);
+  state_.scene_.coordinate_systems = std::move(coordinates_);
+  state_.import_base_ = base_;
+}
+
+}  // namespace pssmlt
