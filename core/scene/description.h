@@ -24,8 +24,9 @@ struct TransformPair {
   bool animated() const { return end != nullptr; }
 };
 
-// One directive as written: the plugin it names, its parameters (those of Attribute merged in) and
-// the current transformation, which maps the directive's space to the world.
+// One directive as written: the plugin it names, its parameters (those of Attribute merged in) and,
+// for what has a place (camera, texture, medium, light, shape), the current transformation, which
+// maps the directive's space to the world. Its matrices are invertible.
 struct Directive {
   std::string type;  // plugin name; "" if the scene does not give the directive
   ParameterSet parameters;

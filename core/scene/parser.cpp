@@ -60,8 +60,8 @@ class Parser {
   void transform_begin(const Location& w) { state_.push(SceneState::Nested::Transform, w); }
   void transform_end(const Location& w) { state_.pop(SceneState::Nested::Transform, w); }
   void color_space(const Location& w) { state_.set_color_space(string_after("ColorSpace"), w); }
-  void coordinate_system(const Location&) {
-    state_.define_coordinates(string_after("CoordinateSystem"));
+  void coordinate_system(const Location& w) {
+    state_.define_coordinates(string_after("CoordinateSystem"), w);
   }
   void coord_sys_transform(const Location& w) {
     state_.use_coordinates(string_after("CoordSysTransform"), w);
@@ -270,8 +270,6 @@ void Parser::translate(const Location& where) {
 
 void Parser::scale(const Location& where) {
   const auto v = numbers<3>("Scale");
-  if (v[0] == 0.0 || v[1] == 0.0 || v[2] == 0.0)
-    fail(where, "Scale by 0: the transformation is singular");
   state_.concatenate(Transform::scale({v[0], v[1], v[2]}), where);
 }
 

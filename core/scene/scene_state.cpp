@@ -45,16 +45,9 @@ void SceneState::check_new(const std::map<std::string, Location, std::less<>>& k
                     to_string(found->second));
 }
 
-TransformPair SceneState::transform() const {
-  TransformPair result{now_.ctm[0], nullptr};
-  if (now_.ctm[0].matrix() != now_.ctm[1].matrix())
-    result.end = std::make_shared<const Transform>(now_.ctm[1]);
-  return result;
-}
-
-Directive SceneState::directive(std::string type, ParameterSet parameters,
-                                const Location& where) const {
-  return {std::move(type), std::move(parameters), where, transform()};
+Directive SceneState::placed(std::string type, ParameterSet parameters,
+                             const Location& where) const {
+  return {std::move(type), std::move(parameters), where, placement(where)};
 }
 
 // What the directive itself gives goes before what Attribute gave.
@@ -70,14 +63,14 @@ ParameterSet SceneState::with_attributes(ParameterSet parameters, Target target)
 }
 
 void SceneState::accelerator(std::string type, ParameterSet parameters, const Location& where) {
-  scene_.accelerator = directive(std::move(type), std::move(parameters), where);
+  scene_.accelerator = {std::move(type), std::move(parameters), where, {}};
 }
 
 void SceneState::area_light(std::string type, ParameterSet parameters, const Location& where) {
   now_.area_light = -1;
   if (type.empty()) return;  // pbrt: no emission from here on
   scene_.area_lights.push_back(
-      directive(std::move(type), with_attributes(std::move(parameters), LightTarget), where));
+      {std::move(type), with_attributes(std::move(parameters), LightTarget), where, {}});
   now_.area_light = static_cast<int>(scene_.area_lights.size()) - 1;
 }
 
@@ -100,7 +93,7 @@ void SceneState::attribute(std::string target, ParameterSet parameters, const Lo
 }
 
 void SceneState::camera(std::string type, ParameterSet parameters, const Location& where) {
-  CameraDescription camera{directive(std::move(type), std::move(parameters), where),
+  CameraDescription camera{placed(std::move(type), std::move(parameters), where),
                            now_.start_time, now_.end_time, now_.outside_medium};
   TransformPair inverse{camera.transform.start.inverse(), nullptr};
   if (camera.transform.animated())
@@ -110,22 +103,22 @@ void SceneState::camera(std::string type, ParameterSet parameters, const Locatio
 }
 
 void SceneState::film(std::string type, ParameterSet parameters, const Location& where) {
-  scene_.film = directive(std::move(type), std::move(parameters), where);
+  scene_.film = {std::move(type), std::move(parameters), where, {}};
   scene_.color_space = *now_.color_space;
 }
 
 void SceneState::filter(std::string type, ParameterSet parameters, const Location& where) {
-  scene_.filter = directive(std::move(type), std::move(parameters), where);
+  scene_.filter = {std::move(type), std::move(parameters), where, {}};
 }
 
 void SceneState::integrator(std::string type, ParameterSet parameters, const Location& where) {
   Directive& target = in_layer_ ? scene_.layers.back().integrator : integrator_;
-  target = directive(std::move(type), std::move(parameters), where);
+  target = {std::move(type), std::move(parameters), where, {}};
 }
 
 void SceneState::sampler(std::string type, ParameterSet parameters, const Location& where) {
   Directive& target = in_layer_ ? scene_.layers.back().sampler : sampler_;
-  target = directive(std::move(type), std::move(parameters), where);
+  target = {std::move(type), std::move(parameters), where, {}};
 }
 
 void SceneState::layer_begin(std::string name, ParameterSet parameters, const Location& where) {
@@ -145,14 +138,13 @@ void SceneState::light(std::string type, ParameterSet parameters, const Location
   if (in_object_)
     note(where, "a LightSource between ObjectBegin and ObjectEnd is not instanced: it shines once");
   scene_.lights.push_back(
-      {directive(std::move(type), with_attributes(std::move(parameters), LightTarget), where),
+      {placed(std::move(type), with_attributes(std::move(parameters), LightTarget), where),
        now_.outside_medium});
 }
 
 void SceneState::material(std::string type, ParameterSet parameters, const Location& where) {
   scene_.materials.push_back(
-      {directive(std::move(type), with_attributes(std::move(parameters), MaterialTarget), where),
-       ""});
+      {{std::move(type), with_attributes(std::move(parameters), MaterialTarget), where, {}}, ""});
   now_.material = static_cast<uint32_t>(scene_.materials.size()) - 1;
 }
 
@@ -178,7 +170,7 @@ void SceneState::named_material(std::string name, ParameterSet parameters, const
   std::string type = take_type(parameters, "material", name, where);
   materials_[name] = static_cast<uint32_t>(scene_.materials.size());
   scene_.materials.push_back(
-      {directive(std::move(type), std::move(parameters), where), std::move(name)});
+      {{std::move(type), std::move(parameters), where, {}}, std::move(name)});
 }
 
 void SceneState::named_medium(std::string name, ParameterSet parameters, const Location& where) {
@@ -188,12 +180,12 @@ void SceneState::named_medium(std::string name, ParameterSet parameters, const L
   std::string type = take_type(parameters, "medium", name, where);
   media_[name] = where;
   scene_.media.push_back(
-      {directive(std::move(type), std::move(parameters), where), std::move(name)});
+      {placed(std::move(type), std::move(parameters), where), std::move(name)});
 }
 
 void SceneState::shape(std::string type, ParameterSet parameters, const Location& where) {
   ShapeDescription shape{
-      directive(std::move(type), with_attributes(std::move(parameters), ShapeTarget), where),
+      placed(std::move(type), with_attributes(std::move(parameters), ShapeTarget), where),
       now_.reverse_orientation, now_.material, now_.area_light, now_.inside_medium,
       now_.outside_medium};
   auto& shapes = in_object_ ? scene_.objects.back().shapes : scene_.shapes;
@@ -210,7 +202,7 @@ void SceneState::texture(std::string name, const std::string& value, std::string
   check_new(known, is_float ? "float texture" : "spectrum texture", name, where);
   known[name] = where;
   scene_.textures.push_back(
-      {directive(std::move(type), with_attributes(std::move(parameters), TextureTarget), where),
+      {placed(std::move(type), with_attributes(std::move(parameters), TextureTarget), where),
        std::move(name), is_float ? TextureValue::Float : TextureValue::Spectrum});
 }
 
@@ -265,6 +257,7 @@ void SceneState::world_begin(const Location& where) {
   }
   block_ = Block::World;
   now_.ctm = {};
+  now_.singular = {};
   now_.active = {true, true};
   scene_.coordinate_systems["world"] = {};
 }

@@ -63,12 +63,13 @@ class SceneState {
   void object_end(const Location& where);
   void object_instance(const std::string& name, const Location& where);
 
-  // Transformations: the active ones are multiplied from the right, or replaced.
+  // Transformations: the active ones are multiplied from the right, or replaced. Exporters write
+  // singular matrices over empty groups, so that one is an error (at the matrix) only when
+  // something is placed with it.
   void concatenate(const Transform& t, const Location& where);
-  // Throws if the matrix is singular.
   void concatenate(const dmat4& m, const Location& where);
   void replace(const dmat4& m, const Location& where);
-  void define_coordinates(const std::string& name);
+  void define_coordinates(const std::string& name, const Location& where);
   void use_coordinates(const std::string& name, const Location& where);
   void activate(bool start, bool end) { now_.active = {start, end}; }
   void transform_times(float start, float end, const Location& where);
@@ -82,6 +83,7 @@ class SceneState {
  private:
   struct GraphicsState {
     std::array<Transform, 2> ctm;  // at the start and the end of the shutter interval
+    std::array<Location, 2> singular;  // where the ctm became singular; line 0: it is not
     std::array<bool, 2> active{true, true};
     float start_time = 0.f, end_time = 1.f;
     bool reverse_orientation = false;
@@ -108,8 +110,10 @@ class SceneState {
   [[noreturn]] void fail_unclosed(const Pushed& open) const;
   void check_new(const std::map<std::string, Location, std::less<>>& known, const char* kind,
                  const std::string& name, const Location& where) const;
-  TransformPair transform() const;
-  Directive directive(std::string type, ParameterSet parameters, const Location& where) const;
+  // The current transformation for what stands at `where`. Throws if it is singular.
+  TransformPair placement(const Location& where) const;
+  Directive placed(std::string type, ParameterSet parameters, const Location& where) const;
+  void set_singular(size_t i, const Location& where);
   ParameterSet with_attributes(ParameterSet parameters, Target target) const;
   std::string take_type(ParameterSet& parameters, const char* kind, const std::string& name,
                         const Location& where) const;

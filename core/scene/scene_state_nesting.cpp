@@ -56,6 +56,7 @@ void SceneState::pop(Nested kind, const Location& where) {
                     to_string(top.where));
   if (kind == Nested::Transform) {  // saves the transformations alone
     now_.ctm = top.state.ctm;
+    now_.singular = top.state.singular;
     now_.active = top.state.active;
   } else {
     now_ = std::move(top.state);
@@ -85,32 +86,52 @@ void SceneState::object_instance(const std::string& name, const Location& where)
   if (in_object_)
     fail(where, "ObjectInstance inside the definition of object \"" + scene_.objects.back().name +
                     "\": objects cannot contain instances");
-  scene_.instances.push_back({0, transform(), where});
+  scene_.instances.push_back({0, placement(where), where});
   instance_names_.push_back({name, where});
+}
+
+TransformPair SceneState::placement(const Location& where) const {
+  for (const Location& singular : now_.singular)
+    if (singular.line != 0)
+      fail(singular, "this makes the transformation singular; it is used at " + to_string(where));
+  TransformPair result{now_.ctm[0], nullptr};
+  if (now_.ctm[0].matrix() != now_.ctm[1].matrix())
+    result.end = std::make_shared<const Transform>(now_.ctm[1]);
+  return result;
+}
+
+// The first culprit stays; the transformation itself stays what it was before.
+void SceneState::set_singular(size_t i, const Location& where) {
+  if (now_.singular[i].line == 0) now_.singular[i] = where;
 }
 
 void SceneState::concatenate(const Transform& t, const Location& where) {
   for (size_t i = 0; i < 2; ++i) {
     if (!now_.active[i]) continue;
-    now_.ctm[i] = now_.ctm[i] * t;
-    if (!all_finite(now_.ctm[i].matrix()) || !all_finite(now_.ctm[i].inverse_matrix()))
-      fail(where, "the current transformation is singular or overflows");
+    const Transform product = now_.ctm[i] * t;
+    if (all_finite(product.matrix()) && all_finite(product.inverse_matrix()))
+      now_.ctm[i] = product;
+    else
+      set_singular(i, where);
   }
 }
 
 void SceneState::concatenate(const dmat4& m, const Location& where) {
-  if (!Transform::is_invertible(m)) fail(where, "the transformation is singular");
-  concatenate(Transform(m), where);
+  if (Transform::is_invertible(m)) return concatenate(Transform(m), where);
+  for (size_t i = 0; i < 2; ++i)
+    if (now_.active[i]) set_singular(i, where);
 }
 
 void SceneState::replace(const dmat4& m, const Location& where) {
-  if (!Transform::is_invertible(m)) fail(where, "the transformation is singular");
+  for (size_t i = 0; i < 2; ++i)
+    if (now_.active[i]) now_.singular[i] = {};
+  if (!Transform::is_invertible(m)) return concatenate(m, where);
   for (size_t i = 0; i < 2; ++i)
     if (now_.active[i]) now_.ctm[i] = Transform(m);
 }
 
-void SceneState::define_coordinates(const std::string& name) {
-  scene_.coordinate_systems[name] = transform();
+void SceneState::define_coordinates(const std::string& name, const Location& where) {
+  scene_.coordinate_systems[name] = placement(where);
 }
 
 void SceneState::use_coordinates(const std::string& name, const Location& where) {
@@ -122,6 +143,7 @@ void SceneState::use_coordinates(const std::string& name, const Location& where)
   }
   const TransformPair& t = found->second;
   now_.ctm = {t.start, t.animated() ? *t.end : t.start};
+  now_.singular = {};
 }
 
 void SceneState::transform_times(float start, float end, const Location& where) {
