@@ -1,5 +1,7 @@
 // The CIE 1931 two-degree standard observer every 5 nm (CIE 018:2019) and the daylight illuminants
 // every 10 nm (CIE 15:2004; the published 5 nm values are their linear interpolation).
+#include <algorithm>
+
 #include "core/color/named_data.h"
 
 namespace pssmlt::named_data {

@@ -1,8 +1,10 @@
 #include "core/color/spectrum_parameter.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "core/color/color_space.h"
 #include "core/color/color_warnings.h"
