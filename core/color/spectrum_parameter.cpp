@@ -30,7 +30,9 @@ void warn(const Parameter& p, const std::string& message) {
 }
 
 std::string text(const dvec3& c) {
-  return "(" + std::to_string(c.x) + ", " + std::to_string(c.y) + ", " + std::to_string(c.z) + ")";
+  std::string result = "(";
+  for (int i = 0; i < 3; ++i) result.append(i > 0 ? ", " : "").append(std::to_string(c[i]));
+  return result.append(")");
 }
 
 // Numbers of one line up to a '#'; false if something else is found.

@@ -13,13 +13,12 @@ namespace pssmlt {
 // 1931 observer, no white balance) and an sRGB film.
 //
 // Illuminant: pbrt-v4 divides the scale of every light by the luminance Y of its spectrum; of an
-// RGB
-//   light it divides by that of the colour space's white only. So, seen directly, a light of
+//   RGB light it divides by that of the colour space's white only. So, seen directly, a light of
 //   rgb (r, g, b) shows (r, g, b), and a spectrum or a black body, whatever its magnitude, shows
 //   its chromaticity with Y = 1, times the light's "scale". There is no adaptation to white: a
-//   black body at 2700 K is (1.94, 0.80, 0.19), at 6500 K nearly (1, 1, 1), stdillum-D65 is (1, 1,
-//   1). A light's photometric "power" and "illuminance" therefore need no constant: with this
-//   colour the luminous flux of a point light is 4 pi, and so on.
+//   black body is (1.93, 0.80, 0.19) at 2700 K and (1.04, 0.98, 1.04) at 6500 K, stdillum-D65 is
+//   (1, 1, 1). A light's photometric "power" and "illuminance" therefore need no constant: with
+//   this colour the luminous flux of a point light is 4 pi, and so on.
 // Albedo: the spectrum, clipped to [0, 1], as a reflectance lit by D65; components in [0, 1].
 // Unbounded: the same integral without the upper limit (eta, k, extinction coefficients).
 //
