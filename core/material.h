@@ -14,6 +14,7 @@ struct MaterialTraits {
   bool diffuse_lobes = false;   // connectible: eval can be non-zero (D in path expressions)
   bool delta_lobes = false;     // S in path expressions
   bool transmits = false;       // can scatter to the other side
+  bool draws_numbers = false;   // reads its MaterialNumbers
   bool passes_through = false;  // invisible (interface): rays go straight on
 };
 

@@ -11,6 +11,7 @@ namespace pssmlt {
 struct SceneFeatures {
   bool alpha = false;              // any cut-outs
   bool instances = false;
+  bool material_numbers = false;   // any material that draws numbers of its own (mix)
   bool connectible = false;        // any material with non-delta lobes (D)
   bool specular = false;           // any material with delta lobes (S)
   bool transmissive = false;

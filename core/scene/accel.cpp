@@ -1,0 +1,256 @@
+#include "core/scene/accel.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <string>
+
+#include "core/base/error.h"
+
+namespace pssmlt {
+namespace {
+
+// What Embree hands back for user geometries: their shape.
+struct UserGeometry {
+  const Shape* shape = nullptr;
+};
+
+void user_bounds(const RTCBoundsFunctionArguments* args) {
+  const Bounds b = static_cast<const UserGeometry*>(args->geometryUserPtr)->shape->bounds();
+  RTCBounds* const out = args->bounds_o;
+  out->lower_x = b.min.x, out->lower_y = b.min.y, out->lower_z = b.min.z;
+  out->upper_x = b.max.x, out->upper_y = b.max.y, out->upper_z = b.max.z;
+}
+
+void user_intersect(const RTCIntersectFunctionNArguments* args) {
+  if (args->valid[0] == 0) return;
+  const auto* const geometry = static_cast<const UserGeometry*>(args->geometryUserPtr);
+  auto* const rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
+  RTCRay& r = rayhit->ray;
+  const Ray ray{{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
+  const auto found = geometry->shape->intersect(ray, r.tnear);
+  if (!found) return;
+  r.tfar = found->t;
+  RTCHit& h = rayhit->hit;
+  h.u = found->uv.x;
+  h.v = found->uv.y;
+  h.geomID = args->geomID;
+  h.primID = found->element;
+  h.instID[0] = args->context->instID[0];
+}
+
+void user_occluded(const RTCOccludedFunctionNArguments* args) {
+  if (args->valid[0] == 0) return;
+  const auto* const geometry = static_cast<const UserGeometry*>(args->geometryUserPtr);
+  auto* const r = reinterpret_cast<RTCRay*>(args->ray);
+  const Ray ray{{r->org_x, r->org_y, r->org_z}, {r->dir_x, r->dir_y, r->dir_z}, r->tfar};
+  if (geometry->shape->intersect(ray, r->tnear)) r->tfar = -infinity;
+}
+
+RTCRay to_embree(const Ray& ray) {
+  RTCRay r;
+  r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+  r.tnear = 0.f;
+  r.tfar = ray.t_max;
+  r.time = 0.f;
+  r.mask = ~0u;
+  r.id = 0;
+  r.flags = 0;
+  return r;
+}
+
+// Transforms a hit of an object to render space; error bounds grow by the matrix's rounding.
+void transform_hit(const Transform& to_render, Hit& hit) {
+  const dmat4& m = to_render.matrix();
+  const dvec3 p = to_render.point(dvec3(hit.position));
+  vec3 error(0.f);
+  for (int i = 0; i < 3; ++i) {
+    double e = 0.0;
+    for (int k = 0; k < 3; ++k) e += std::abs(m[k][i]) * static_cast<double>(hit.error[k]);
+    error[i] = static_cast<float>(e + std::abs(p[i]) * 0x1p-22);
+  }
+  hit.position = vec3(p);
+  hit.error = error;
+  // The inverse transpose keeps normals on their side of the surface, mirrored or not.
+  hit.ng = glm::normalize(to_render.normal(hit.ng));
+  hit.ns = glm::normalize(to_render.normal(hit.ns));
+  hit.dpdu = to_render.vector(hit.dpdu);
+  hit.dpdv = to_render.vector(hit.dpdv);
+  hit.dndu = to_render.normal(hit.dndu);
+  hit.dndv = to_render.normal(hit.dndv);
+}
+
+}  // namespace
+
+struct Accel::Impl {
+  RTCDevice device = nullptr;
+  RTCScene top = nullptr;
+  std::vector<RTCScene> object_scenes;
+  std::vector<std::unique_ptr<UserGeometry>> users;
+  std::vector<const Primitive*> primitives;                   // by geometry ID of the top scene
+  std::vector<std::vector<const Primitive*>> objects;         // by geometry ID of an object's scene
+  std::vector<Instance> instances;
+  uint32_t first_instance_id = 0;
+  std::atomic<int64_t> bytes{0};
+  std::string failure;
+
+  void attach(RTCScene scene, const Primitive& primitive, uint32_t id);
+  void attach_mesh(RTCGeometry geometry, const TriangleMesh& mesh);
+  RTCScene make_scene();
+  void check();
+};
+
+void Accel::Impl::attach_mesh(RTCGeometry geometry, const TriangleMesh& mesh) {
+  // The shapes keep their arrays; Embree reads 4 bytes past the last vertex, which std::vector's
+  // storage does not promise, so positions are copied into Embree's own padded buffer.
+  void* const positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                  RTC_FORMAT_FLOAT3, sizeof(vec3),
+                                                  mesh.positions.size());
+  if (positions) std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(vec3));
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             mesh.triangles.data(), 0, sizeof(glm::uvec3), mesh.triangles.size());
+}
+
+void Accel::Impl::attach(RTCScene scene, const Primitive& primitive, uint32_t id) {
+  const TriangleMesh* const mesh = primitive.shape->mesh();
+  const RTCGeometry geometry =
+      rtcNewGeometry(device, mesh ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
+  if (mesh) {
+    attach_mesh(geometry, *mesh);
+  } else {
+    users.push_back(std::make_unique<UserGeometry>(UserGeometry{primitive.shape.get()}));
+    rtcSetGeometryUserPrimitiveCount(geometry, 1);
+    rtcSetGeometryUserData(geometry, users.back().get());
+    rtcSetGeometryBoundsFunction(geometry, user_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, user_intersect);
+    rtcSetGeometryOccludedFunction(geometry, user_occluded);
+  }
+  // MEDIUM: the structure, and with it every hit, does not depend on the number of threads.
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+RTCScene Accel::Impl::make_scene() {
+  const RTCScene scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+  return scene;
+}
+
+void Accel::Impl::check() {
+  if (!failure.empty()) throw Failure("acceleration structure: " + failure);
+}
+
+Accel::Accel() : impl_(std::make_unique<Impl>()) {
+  impl_->device = rtcNewDevice(nullptr);
+  if (!impl_->device) throw Failure("Embree could not be initialised");
+  rtcSetDeviceErrorFunction(
+      impl_->device,
+      [](void* user, RTCError, const char* text) {
+        auto& failure = *static_cast<std::string*>(user);
+        if (failure.empty()) failure = text;
+      },
+      &impl_->failure);
+  rtcSetDeviceMemoryMonitorFunction(
+      impl_->device,
+      [](void* user, ssize_t bytes, bool) {
+        *static_cast<std::atomic<int64_t>*>(user) += bytes;
+        return true;
+      },
+      &impl_->bytes);
+}
+
+Accel::~Accel() {
+  for (const RTCScene scene : impl_->object_scenes) rtcReleaseScene(scene);
+  if (impl_->top) rtcReleaseScene(impl_->top);
+  rtcReleaseDevice(impl_->device);
+}
+
+void Accel::build(const std::vector<const Primitive*>& primitives,
+                  const std::vector<std::vector<const Primitive*>>& objects,
+                  const std::vector<Instance>& instances) {
+  Impl& d = *impl_;
+  d.primitives = primitives;
+  d.objects = objects;
+  d.instances = instances;
+  for (const auto& object : objects) {
+    const RTCScene scene = d.make_scene();
+    for (uint32_t i = 0; i < object.size(); ++i) d.attach(scene, *object[i], i);
+    rtcCommitScene(scene);
+    d.object_scenes.push_back(scene);
+  }
+  d.top = d.make_scene();
+  for (uint32_t i = 0; i < primitives.size(); ++i) d.attach(d.top, *primitives[i], i);
+  d.first_instance_id = static_cast<uint32_t>(primitives.size());
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    const RTCGeometry geometry = rtcNewGeometry(d.device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, d.object_scenes[instances[i].object]);
+    const glm::mat4 m(instances[i].to_render.matrix());
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(d.top, geometry, d.first_instance_id + i);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(d.top);
+  d.check();
+}
+
+bool Accel::intersect(const Ray& ray, RawHit& hit) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query;
+  query.ray = to_embree(ray);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->top, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  hit.t = query.ray.tfar;
+  hit.where = {query.hit.u, query.hit.v};
+  hit.element = query.hit.primID;
+  if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) {
+    hit.instance = -1;
+    hit.primitive = impl_->primitives[query.hit.geomID];
+  } else {
+    hit.instance = static_cast<int>(query.hit.instID[0] - impl_->first_instance_id);
+    const uint32_t object = impl_->instances[static_cast<size_t>(hit.instance)].object;
+    hit.primitive = impl_->objects[object][query.hit.geomID];
+  }
+  return true;
+}
+
+bool Accel::occluded(const Ray& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay query = to_embree(ray);
+  rtcOccluded1(impl_->top, &context, &query);
+  return query.tfar < 0.f;
+}
+
+void Accel::fill(const Ray& ray, const RawHit& raw, Hit& hit) const {
+  hit.primitive = raw.primitive;
+  hit.element = raw.element;
+  raw.primitive->shape->fill(raw.where, hit);
+  if (raw.instance >= 0) {
+    transform_hit(impl_->instances[static_cast<size_t>(raw.instance)].to_render, hit);
+  }
+  hit.distance = glm::distance(ray.origin, hit.position);
+}
+
+SceneBounds Accel::bounds() const {
+  RTCBounds b;
+  rtcGetSceneBounds(impl_->top, &b);
+  const vec3 lower(b.lower_x, b.lower_y, b.lower_z), upper(b.upper_x, b.upper_y, b.upper_z);
+  if (!(lower.x <= upper.x)) return {vec3(0.f), 0.f};
+  return {0.5f * (lower + upper), 0.5f * glm::distance(lower, upper)};
+}
+
+uint64_t Accel::bytes() const {
+  return static_cast<uint64_t>(std::max<int64_t>(0, impl_->bytes.load()));
+}
+
+}  // namespace pssmlt

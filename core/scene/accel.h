@@ -1,0 +1,53 @@
+// The only door to Embree: nearest hits and occlusion over primitives and instances.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/ray.h"
+#include "core/base/transform.h"
+#include "core/scene/scene.h"
+
+namespace pssmlt {
+
+class Accel {
+ public:
+  // A set of primitives placed once (identity) or by every one of its instances.
+  struct Instance {
+    uint32_t object = 0;
+    Transform to_render;
+  };
+  Accel();
+  ~Accel();
+  Accel(const Accel&) = delete;
+  Accel& operator=(const Accel&) = delete;
+
+  // primitives: in render space; objects: in the space their instances start from. The primitives
+  // outlive the Accel. Throws Failure if memory runs out.
+  void build(const std::vector<const Primitive*>& primitives,
+             const std::vector<std::vector<const Primitive*>>& objects,
+             const std::vector<Instance>& instances);
+
+  // Where a ray meets something, before its surface is computed.
+  struct RawHit {
+    float t = 0.f;
+    vec2 where{0.f};         // barycentric or the shape's own coordinates
+    uint32_t element = 0;
+    int instance = -1;       // into instances, -1: none
+    const Primitive* primitive = nullptr;
+  };
+  bool intersect(const Ray& ray, RawHit& hit) const;
+  bool occluded(const Ray& ray) const;
+  // Completes the hit in render space (footprint left to the scene).
+  void fill(const Ray& ray, const RawHit& raw, Hit& hit) const;
+
+  SceneBounds bounds() const;   // of everything, radius 0 if empty
+  uint64_t bytes() const;       // Embree's own memory
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pssmlt

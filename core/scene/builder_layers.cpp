@@ -1,0 +1,190 @@
+#include "core/scene/builder_layers.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+
+#include "core/plugin/registry.h"
+#include "core/scene/builder_resolver.h"
+#include "core/scene/suggest.h"
+
+namespace pssmlt {
+namespace {
+
+template <typename T>
+T parse_number(const std::string& text, const std::string& assignment) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw Error("--set " + assignment + ": \"" + text + "\" is not a number of the right type");
+  }
+  return value;
+}
+
+// A parameter from its text, typed as the plugin documents it.
+Parameter typed_parameter(const ParameterDoc& doc, const std::string& text,
+                          const std::string& assignment) {
+  Parameter p;
+  p.name = doc.name;
+  if (doc.type.starts_with("integer")) {
+    p.type = ParameterType::Integer;
+    p.ints = {parse_number<int>(text, assignment)};
+  } else if (doc.type.starts_with("float")) {
+    p.type = ParameterType::Float;
+    p.floats = {parse_number<float>(text, assignment)};
+  } else if (doc.type.starts_with("bool")) {
+    if (text != "true" && text != "false") {
+      throw Error("--set " + assignment + ": must be true or false");
+    }
+    p.type = ParameterType::Bool;
+    p.bools = {static_cast<uint8_t>(text == "true")};
+  } else if (doc.type.starts_with("string")) {
+    p.type = ParameterType::String;
+    p.strings = {text};
+  } else {
+    throw Error("--set " + assignment + ": a parameter of type " + doc.type +
+                " can only be given in the scene");
+  }
+  return p;
+}
+
+void set_parameter(ParameterSet& set, Parameter parameter) {
+  std::erase_if(set, [&](const Parameter& p) { return p.name == parameter.name; });
+  set.push_back(std::move(parameter));
+}
+
+// The scene's directive, or the command line's choice with those of the scene's parameters that the
+// chosen plugin has too.
+Directive choose(const Directive& scene, const std::optional<std::string>& chosen,
+                 const std::string& fallback) {
+  Directive d = scene;
+  if (chosen) d.type = *chosen;
+  if (d.type.empty()) d.type = fallback;
+  return d;
+}
+
+void drop_unknown(const std::vector<ParameterDoc>& docs, const std::string& kind, Directive& d,
+                  std::vector<std::string>& log) {
+  std::erase_if(d.parameters, [&](const Parameter& p) {
+    const bool known = std::ranges::find(docs, p.name, &ParameterDoc::name) != docs.end();
+    if (!known) {
+      log.push_back("the scene's parameter \"" + p.name + "\" does not apply to the chosen " +
+                    owner_name(kind, d.type));
+    }
+    return !known;
+  });
+}
+
+void describe_settings(const std::string& kind, const Directive& d, std::string& settings) {
+  settings += kind + " " + d.type + "\n";
+  for (const Parameter& p : d.parameters) {
+    settings += " " + p.name;
+    for (const int v : p.ints) settings += " " + std::to_string(v);
+    for (const float v : p.floats) settings += " " + std::to_string(std::bit_cast<uint32_t>(v));
+    for (const std::string& v : p.strings) settings += " \"" + v + "\"";
+    for (const uint8_t v : p.bools) settings += v ? " true" : " false";
+    settings += "\n";
+  }
+}
+
+template <typename Kind>
+std::shared_ptr<Kind> make(const std::string& kind, const FoundPlugin& found, const Directive& d,
+                           SceneResolver& resolver) {
+  for (const Parameter& p : d.parameters) p.was_read = false;
+  Parameters parameters(d.parameters, d.where, owner_name(kind, d.type), &resolver);
+  return make_plugin<Kind>(found, parameters);
+}
+
+// An alias that stands for integrator and sampler (a Metropolis integrator of pbrt's) hands the
+// parameters that the integrator does not know to the sampler.
+void split_alias(const FoundPlugin& found, Directive& integrator, Directive& sampler) {
+  const auto docs = describe(*found.descriptor);
+  ParameterSet kept;
+  sampler.parameters.clear();
+  for (Parameter& p : integrator.parameters) {
+    const bool known = std::ranges::find(docs, p.name, &ParameterDoc::name) != docs.end();
+    (known ? kept : sampler.parameters).push_back(std::move(p));
+  }
+  integrator.parameters = std::move(kept);
+  sampler.type = found.sampler;
+}
+
+void log_alias(const std::string& kind, const FoundPlugin& found, std::vector<std::string>& log) {
+  if (found.alias.empty()) return;
+  std::string line = owner_name(kind, found.alias) + " stands for \"" + found.descriptor->name + "\"";
+  if (!found.sampler.empty()) line += " under sampler \"" + found.sampler + "\"";
+  log.push_back(line);
+}
+
+Layer build_layer(const LayerDescription& description, const BuildOptions& options,
+                  SceneResolver& resolver, std::string& settings, std::vector<std::string>& log) {
+  Registry& registry = Registry::instance();
+  Directive integrator = choose(description.integrator, options.integrator,
+                                options.defaults.integrator);
+  Directive sampler = choose(description.sampler, options.sampler, options.defaults.sampler);
+  const FoundPlugin found_integrator =
+      registry.find("integrator", integrator.type, integrator.where);
+  log_alias("integrator", found_integrator, log);
+  // --sampler overrules what an alias implies.
+  if (!found_integrator.sampler.empty()) {
+    split_alias(found_integrator, integrator, sampler);
+    if (options.sampler) sampler.type = *options.sampler;
+  }
+  const FoundPlugin found_sampler = registry.find("sampler", sampler.type, sampler.where);
+  log_alias("sampler", found_sampler, log);
+  const auto integrator_docs = describe(*found_integrator.descriptor);
+  const auto sampler_docs = describe(*found_sampler.descriptor);
+  if (options.integrator) drop_unknown(integrator_docs, "integrator", integrator, log);
+  // An alias' parameters are another plugin's: what ours does not know is said, not refused.
+  if (options.sampler || !found_sampler.alias.empty()) {
+    drop_unknown(sampler_docs, "sampler", sampler, log);
+  }
+  apply_assignments(options.set, "integrator", integrator_docs, integrator);
+  apply_assignments(options.set, "sampler", sampler_docs, sampler);
+  describe_settings("integrator", integrator, settings);
+  describe_settings("sampler", sampler, settings);
+  Layer layer;
+  layer.name = description.name;
+  layer.integrator = make<Integrator>("integrator", found_integrator, integrator, resolver);
+  layer.sampler = make<Sampler>("sampler", found_sampler, sampler, resolver);
+  layer.integrator_name = found_integrator.descriptor->name;
+  layer.sampler_name = found_sampler.descriptor->name;
+  return layer;
+}
+
+}  // namespace
+
+void apply_assignments(const std::vector<std::string>& set, const std::string& owner,
+                       const std::vector<ParameterDoc>& docs, Directive& directive) {
+  for (const std::string& assignment : set) {
+    const size_t dot = assignment.find('.'), equals = assignment.find('=');
+    if (dot == std::string::npos || equals == std::string::npos || dot > equals) {
+      throw Error("--set " + assignment + ": must look like integrator.maxdepth=8");
+    }
+    if (assignment.substr(0, dot) != owner) continue;
+    const std::string name = assignment.substr(dot + 1, equals - dot - 1);
+    const auto doc = std::ranges::find(docs, name, &ParameterDoc::name);
+    if (doc == docs.end()) {
+      std::vector<std::string> known;
+      for (const ParameterDoc& d : docs) known.push_back(d.name);
+      throw Error("--set " + assignment + ": " + owner_name(owner, directive.type) +
+                  " has no parameter \"" + name + "\"" + suggestion(name, known));
+    }
+    set_parameter(directive.parameters,
+                  typed_parameter(*doc, assignment.substr(equals + 1), assignment));
+  }
+}
+
+std::vector<Layer> build_layers(const SceneDescription& scene, const BuildOptions& options,
+                                std::string& settings, std::vector<std::string>& log) {
+  BuildResolver resolver(scene, Transform(), options.defaults.material);
+  std::vector<Layer> layers;
+  for (const LayerDescription& description : scene.layers) {
+    Parameters(description.parameters, description.where, "layer", &resolver).check_all_read();
+    settings += "layer " + description.name + "\n";
+    layers.push_back(build_layer(description, options, resolver, settings, log));
+  }
+  return layers;
+}
+
+}  // namespace pssmlt

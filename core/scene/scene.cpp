@@ -1,0 +1,145 @@
+#include "core/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include "core/scene/accel.h"
+#include "core/scene/path_log.h"
+
+namespace pssmlt {
+namespace {
+
+thread_local RayCounters thread_counters;
+thread_local std::function<void(const std::string&)> path_listener;
+thread_local bool path_logged = false;
+
+std::string text(const vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v.x, v.y, v.z); }
+
+void log_ray(const char* what, const Ray& ray, const std::string& outcome) {
+  path_listener(fmt::format("{} from {} along {}: {}", what, text(ray.origin), text(ray.direction),
+                            outcome));
+}
+
+// Diameter of a pixel at a point [m].
+float footprint_at(const Camera& camera, const vec3& position) {
+  const float spread = camera.pixel_spread();
+  return camera.parallel() ? spread : spread * glm::distance(camera.center(), position);
+}
+
+}  // namespace
+
+RayCounters& ray_counters() { return thread_counters; }
+
+void set_path_log(std::function<void(const std::string&)> listener) {
+  path_logged = static_cast<bool>(listener);
+  path_listener = std::move(listener);
+}
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+bool Scene::intersect(const Ray& ray, float u_alpha, Hit& hit) const {
+  ++thread_counters.nearest;
+  Accel::RawHit raw;
+  Ray rest = ray;
+  float travelled = 0.f;
+  while (accel_->intersect(rest, raw)) {
+    accel_->fill(rest, raw, hit);
+    hit.footprint = footprint_at(*camera_, hit.position);
+    const Texture<float>* const alpha = raw.primitive->alpha.get();
+    const float opacity = alpha ? alpha->evaluate(hit) : 1.f;
+    if (opacity >= 1.f || u_alpha < opacity) {
+      hit.distance += travelled;
+      if (path_logged) {
+        log_ray("ray", ray, "meets " + raw.primitive->name + " at " + text(hit.position));
+      }
+      return true;
+    }
+    // Inversion over the sorted hits: what is left of the number decides at the next one.
+    u_alpha = std::fmin((u_alpha - opacity) / (1.f - opacity), one_minus_epsilon);
+    travelled += hit.distance;
+    rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);
+    rest.t_max = ray.t_max - travelled;
+    if (!(rest.t_max > 0.f)) break;
+  }
+  if (path_logged) log_ray("ray", ray, "leaves the scene");
+  return false;
+}
+
+float Scene::visibility(const Ray& ray) const {
+  ++thread_counters.shadow;
+  if (!features_.alpha) {
+    const bool blocked = accel_->occluded(ray);
+    if (path_logged) log_ray("shadow ray", ray, blocked ? "blocked" : "free");
+    return blocked ? 0.f : 1.f;
+  }
+  float passed = 1.f;
+  Accel::RawHit raw;
+  Hit hit;
+  Ray rest = ray;
+  while (accel_->intersect(rest, raw)) {
+    const Texture<float>* const alpha = raw.primitive->alpha.get();
+    if (!alpha) return 0.f;
+    accel_->fill(rest, raw, hit);
+    hit.footprint = footprint_at(*camera_, hit.position);
+    passed *= 1.f - std::fmin(std::fmax(alpha->evaluate(hit), 0.f), 1.f);
+    if (!(passed > 0.f)) return 0.f;
+    rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);
+    rest.t_max -= hit.distance;
+    if (!(rest.t_max > 0.f)) break;
+  }
+  if (path_logged) log_ray("shadow ray", ray, fmt::format("passes {:.6g}", passed));
+  return passed;
+}
+
+Ray Scene::segment(const vec3& from, const vec3& from_error, const vec3& from_normal,
+                   const vec3& to, const vec3& to_error, const vec3& to_normal) {
+  const vec3 straight = to - from;
+  const vec3 a = offset_origin(from, from_error, from_normal, straight);
+  const vec3 b = offset_origin(to, to_error, to_normal, -straight);
+  const vec3 d = b - a;
+  const float length = glm::length(d);
+  // The far end is already in front of its surface; the factor only covers the rounding of t.
+  return {a, length > 0.f ? d / length : vec3(0.f, 0.f, 1.f), length * (1.f - 0x1p-20f)};
+}
+
+Rgb Scene::emitted(const Hit& hit, const vec3& direction) const {
+  const Light* const light = hit.primitive->light;
+  if (!light) return Rgb(0.f);
+  return light->evaluate({hit.position, hit.ng, hit.uv, hit.element}, direction).value;
+}
+
+Rgb Scene::background(const vec3& direction) const {
+  Rgb sum(0.f);
+  for (const Light* light : light_table_.infinite()) sum += light->background(direction);
+  return sum;
+}
+
+// The bump map's tangent plane (Blinn 1978; Pharr, Jakob, Humphreys 2023, section 10.5.3): the
+// surface moved along the shading normal by the height field, differentiated by finite differences
+// one footprint wide.
+Frame Scene::shading_frame(const Hit& hit) const {
+  const Texture<float>* const height = hit.primitive->material->displacement();
+  if (!height) return Frame::from_tangent(hit.ns, hit.dpdu);
+  const float lu = glm::length(hit.dpdu), lv = glm::length(hit.dpdv);
+  const float du = lu > 0.f ? std::fmax(0.5f * hit.footprint / lu, 5e-4f) : 5e-4f;
+  const float dv = lv > 0.f ? std::fmax(0.5f * hit.footprint / lv, 5e-4f) : 5e-4f;
+  Hit moved = hit;
+  const float h = height->evaluate(hit);
+  moved.position = hit.position + du * hit.dpdu;
+  moved.uv = hit.uv + vec2(du, 0.f);
+  const float hu = height->evaluate(moved);
+  moved.position = hit.position + dv * hit.dpdv;
+  moved.uv = hit.uv + vec2(0.f, dv);
+  const float hv = height->evaluate(moved);
+  const vec3 dpdu = hit.dpdu + (hu - h) / du * hit.ns + h * hit.dndu;
+  const vec3 dpdv = hit.dpdv + (hv - h) / dv * hit.ns + h * hit.dndv;
+  vec3 n = glm::cross(dpdu, dpdv);
+  if (!(length_squared(n) > 0.f) || !is_finite(n)) return Frame::from_tangent(hit.ns, hit.dpdu);
+  n = glm::normalize(n);
+  if (glm::dot(n, hit.ng) < 0.f) n = -n;
+  return Frame::from_tangent(n, dpdu);
+}
+
+}  // namespace pssmlt
