@@ -1,0 +1,53 @@
+#include "core/material_base.h"
+
+namespace pssmlt {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+class InvalidBsdf final : public Bsdf {
+ public:
+  Rgb eval(const vec3&, const vec3&, Transport) const override { return Rgb(nan); }
+  float pdf(const vec3&, const vec3&) const override { return inv_pi; }
+  std::optional<BsdfSample> sample(const vec3& wo, float, const vec2&, Transport) const override {
+    return BsdfSample{.wi = {-wo.x, -wo.y, wo.z}, .weight = Rgb(nan), .pdf = inv_pi,
+                      .pdf_reverse = inv_pi};
+  }
+  bool connectible() const override { return true; }
+  Rgb albedo(const vec3&) const override { return Rgb(nan); }
+};
+
+}  // namespace
+
+const Bsdf* invalid_bsdf(BsdfStorage& storage) { return storage.make<InvalidBsdf>(); }
+
+BumpedMaterial::BumpedMaterial(Parameters& p)
+    : displacement_(p.optional_float_texture(
+          "displacement", "height field [m] that bends the shading normal, not the surface")) {
+  if (p.has("normalmap")) p.fail("normalmap", "normal maps are not supported yet");
+}
+
+RoughnessTextures::RoughnessTextures(Parameters& p) {
+  const auto both = p.float_texture("roughness", 0.f, "", "roughness along both axes; 0 is smooth");
+  u_ = p.optional_float_texture("uroughness", "roughness along dpdu; default: roughness");
+  v_ = p.optional_float_texture("vroughness", "roughness along dpdv; default: roughness");
+  remap_ = p.flag("remaproughness", true, "the width of the lobe is the root of the roughness");
+  if (!u_) u_ = both;
+  if (!v_) v_ = both;
+  is_constant_ = u_->constant() && v_->constant();
+  if (!is_constant_) return;
+  if (u_->evaluate(Hit()) < 0.f || v_->evaluate(Hit()) < 0.f) p.fail("roughness must not be negative");
+  const vec2 a = alpha(Hit());
+  is_smooth_ = Ggx(a.x, a.y).is_smooth();
+}
+
+float RoughnessTextures::width(float roughness) const {
+  const float positive = clamp_keep_nan(roughness, infinity);
+  return remap_ ? Ggx::remap(positive) : positive;
+}
+
+vec2 RoughnessTextures::alpha(const Hit& hit) const {
+  return {width(u_->evaluate(hit)), width(v_->evaluate(hit))};
+}
+
+}  // namespace pssmlt
