@@ -26,10 +26,12 @@ struct Bounds {
   void add(const vec3& p) { min = glm::min(min, p); max = glm::max(max, p); }
 };
 
-// Where a ray meets a user geometry: distance and the shape's own two coordinates there.
+// Where a ray meets a user geometry: distance, the shape's own two coordinates there (`where` of
+// fill) and hit.element.
 struct UserHit {
   float t = 0.f;
   vec2 uv{0.f};
+  uint32_t element = 0;
 };
 
 // A sampled point of the surface.
@@ -64,8 +66,11 @@ class Shape {
   // A point as seen from a reference, .pdf in [1/sr]; the default converts sample_area. nullopt
   // where the point is seen edge-on or from inside its own plane.
   virtual std::optional<SurfaceSample> sample_toward(const vec3& reference, const vec2& u) const;
-  // Density [1/sr] of sample_toward at a point of this surface.
-  virtual float pdf_toward(const vec3& reference, const vec3& position, const vec3& normal) const;
+  // Densities of sample_area [1/m^2] and of sample_toward [1/sr at the reference] at a point of this
+  // surface, of which position, normal, uv and element are read. The defaults: 1 / area, and its
+  // conversion.
+  virtual float pdf_area(const SurfaceSample& at) const;
+  virtual float pdf_toward(const vec3& reference, const SurfaceSample& at) const;
 };
 
 // Density per area to density per solid angle at `reference` [1/m^2 -> 1/sr]; 0 if edge-on.

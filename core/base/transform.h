@@ -17,7 +17,7 @@ class Transform {
   static Transform scale(const dvec3& s);
   // Angle in degrees, as pbrt's Rotate.
   static Transform rotate(double degrees, const dvec3& axis);
-  // World to camera, as pbrt's LookAt. Returns identity-like invalid matrix if degenerate: check
+  // World to camera, as pbrt's LookAt. Returns a singular or non-finite matrix if degenerate: check
   // with is_invertible(m).
   static dmat4 look_at(const dvec3& eye, const dvec3& look, const dvec3& up);
   // False if m is singular or has non-finite entries.

@@ -14,22 +14,29 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/endpoint.h"
 #include "core/scene/parameters.h"
 
 namespace pssmlt {
 
 enum class LightLetter : uint8_t { area, infinite, delta };
 
+// The letter of a light with these traits.
+inline LightLetter light_letter(const EndpointTraits& traits) {
+  if (traits.delta_position || traits.delta_direction) return LightLetter::delta;
+  return traits.infinite ? LightLetter::infinite : LightLetter::area;
+}
+
 // Deterministic automata in both directions, so that a path built from both ends is matched with
 // one table look-up per vertex and one per connection.
 class PathExpression {
  public:
   PathExpression() : PathExpression("L.*E") {}
-  // Throws Error at `where` with the column of the fault inside the expression.
+  // Throws Error at `where` with the place of the fault inside the expression.
   explicit PathExpression(std::string_view text, const Location& where = {});
 
   using State = uint16_t;
-  // State after the light's letter, reading from the light; dead() states accept nothing more.
+  // State after the light's letter, reading from the light.
   State from_light(LightLetter light) const { return light_start_[static_cast<size_t>(light)]; }
   // State after E, reading from the camera.
   State from_camera() const { return camera_start_; }
@@ -43,6 +50,9 @@ class PathExpression {
   bool ends(LightLetter light, State camera_side) const {
     return joins(from_light(light), camera_side);
   }
+  // True if no path that goes on from this state can match.
+  bool camera_dead(State s) const { return s == camera_dead_; }
+  bool light_dead(State s) const { return s == light_dead_; }
   bool accepts_all() const { return accepts_all_; }
   // True if no path of up to `bounces` scattering vertices over the given letters matches both
   // expressions: used to compute what an integrator cannot see in a scene.
@@ -53,12 +63,16 @@ class PathExpression {
 
  private:
   std::string text_;
+  // Indexed by state; two entries a state (connectible, delta) for the steps.
   std::vector<State> light_step_, camera_step_;
   std::vector<uint8_t> joins_;
   State light_start_[3] = {0, 0, 0};
   State camera_start_ = 0;
+  State light_dead_ = 0, camera_dead_ = 0;
   uint32_t camera_states_ = 1;
   bool accepts_all_ = true;
+
+  friend class PathAutomaton;  // path_expression.cpp: builds the tables
 };
 
 // The limits that every integrator takes: "mindepth" (0), "maxdepth" (5), "paths" ("L.*E").

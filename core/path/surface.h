@@ -1,5 +1,7 @@
 // A surface point ready for scattering: hit, shading frame and Bsdf, with the conversions between
-// world and local directions that every integrator needs.
+// world and local directions that every integrator needs. Reflection and transmission are told
+// apart by the sides of the shading normal alone; the geometric normal offsets rays, converts
+// densities and corrects importance.
 #pragma once
 
 #include <optional>
@@ -37,11 +39,24 @@ class Surface {
   // Density of sampling `to` when arriving from `from` (reverse of a path) [1/sr].
   float pdf(const vec3& from, const vec3& to) const;
   std::optional<ScatterSample> sample(float u_lobe, const vec2& u, Transport mode) const;
-  bool connectible() const { return bsdf_ && bsdf_->connectible(); }
+  // True if f_cos can be non-zero. Call after a shade() that returned true, as all but hit and wo.
+  bool connectible() const { return bsdf_->connectible(); }
   // Ray that leaves toward `direction`, offset from the surface.
   Ray spawn(const vec3& direction) const {
     return {offset_origin(hit.position, hit.error, hit.ng, direction), direction, infinity};
   }
+  // Ray to a point of a light or camera, for visibility.
+  Ray segment(const Toward& end) const {
+    if (!(end.distance < infinity)) return spawn(end.wi);
+    return Scene::segment(hit.position, hit.error, hit.ng, end.at.position, end.error,
+                          end.at.normal);
+  }
+  Ray segment(const Surface& other) const {
+    return Scene::segment(hit.position, hit.error, hit.ng, other.hit.position, other.hit.error,
+                          other.hit.ng);
+  }
+  // This point as a point of the light that the surface carries.
+  EndpointPoint light_point() const { return {hit.position, hit.ng, hit.uv, hit.element}; }
   const Bsdf* bsdf() const { return bsdf_; }
   const Frame& frame() const { return frame_; }
 
@@ -50,7 +65,10 @@ class Surface {
   Surface& operator=(const Surface&) = delete;
 
  private:
+  // Factor of importance transport toward wi, |cos(ns, wi)| included.
+  float adjoint_cosine(const vec3& wi) const;
   Frame frame_;
+  vec3 wo_local_{0.f};
   const Bsdf* bsdf_ = nullptr;
   BsdfStorage storage_;
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/integrator.h"
@@ -30,6 +31,8 @@ class RejectionLog {
   void count(Rejection cause, const std::string& key, const dvec2& raster);
   uint64_t total() const;
   uint64_t of(Rejection cause) const { return counts_[static_cast<size_t>(cause)]; }
+  // True while keys are still kept; after that only the counts go on.
+  bool wants_examples() const;
   // The first few keys, for the summary.
   std::vector<ReplayKey> examples() const;
 

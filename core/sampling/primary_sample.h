@@ -27,12 +27,12 @@ inline constexpr int blocks_per_vertex = 2;
 // Four numbers as 32-bit fixed point: the torus is integer overflow.
 using NumberBlock = RandomBlock;
 
-// Cursor over a block's four numbers.
+// Cursor over a block's four numbers. Holds a copy: it outlives what is read after it.
 class Numbers {
  public:
-  explicit Numbers(const NumberBlock& block) : at_(block.data()) {}
+  explicit Numbers(const NumberBlock& block) : block_(block) {}
   // The next number in [0, 1). At most four a block.
-  float next() { return to_unit(*at_++); }
+  float next() { return to_unit(block_[at_++ & 3]); }
   vec2 next2() {
     const float x = next();
     const float y = next();
@@ -40,7 +40,8 @@ class Numbers {
   }
 
  private:
-  const uint32_t* at_;
+  NumberBlock block_;
+  uint32_t at_ = 0;
 };
 
 // Where numbers come from when they are first read: a sampler's generator.
@@ -107,6 +108,12 @@ class PrimarySample {
   }
   // Identity of what the stream holds; the shared stream is part of every stream's identity.
   StreamVersion version(Stream stream) const { return versions_[static_cast<size_t>(stream)]; }
+  // False if nobody asked for the raster position of this point: it has no pixel then.
+  bool raster_known() const { return raster_known_; }
+  // What a stream holds: the numbers read so far, and for chains those that its state kept.
+  const StreamNumbers& held(Stream stream) const {
+    return *streams_[static_cast<size_t>(stream)];
+  }
 
  private:
   friend class PrimarySampleOwner;
@@ -116,6 +123,7 @@ class PrimarySample {
   const class RasterMap* raster_map_ = nullptr;
   std::array<StreamVersion, stream_count> versions_{};
   dvec2 raster_{0.0};
+  int fixed_pixel_ = -1;       // the pixel that the raster pair may not leave; -1: none
   int raster_pixel_ = -1;      // index in the window, row major
   float raster_weight_ = 0.f;  // sign(f) * integral |f| / integral f of the filter
   bool raster_known_ = false;

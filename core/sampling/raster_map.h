@@ -16,8 +16,12 @@ struct PixelCredit {
   float weight = 0.f;   // may be negative (filters with negative lobes)
 };
 
+// The filter is tabulated: constant on each of 64 x 64 cells of its support. Both kinds of splat use
+// the table, so that they converge to the same picture; a box is exact. Weights are exact: for camera
+// splats they are +-integral |f| / integral f without any variance of their own.
 class RasterMap {
  public:
+  // Throws Error if the filter's integral is not positive or its radius not in (0, 64] pixels.
   RasterMap(const RasterFrame& frame, std::shared_ptr<const Filter> filter);
   const RasterFrame& frame() const { return frame_; }
 
@@ -32,18 +36,32 @@ class RasterMap {
   // Same for a given pixel (index in the window) and offset numbers in [0,1)^2: what samplers that
   // are not Markov chains use to give every pixel the same number of samples.
   CameraPoint camera_point_in(int pixel, double x, double y) const;
-  // Pixel that a light splat at `raster` [pixels] is credited to, one of those in whose support it
-  // lies, with probability |f_j| / sum |f|; weight sign(f_j) * sum |f| / integral f. `u` in [0,1).
+  // Pixel that a light splat at `raster` [pixels] is credited to: one of those of the window in
+  // whose support it lies, with probability |f_j| / sum |f|; weight sign(f_j) * sum |f| / integral
+  // f. `u` in [0,1). A box that does not overlap its neighbours needs no choice.
   PixelCredit pick(const dvec2& raster, float u) const;
+  // The tabulated filter [1] at an offset from the pixel's centre [pixels]; 0 outside its support.
+  float filter_value(const dvec2& offset) const;
+  // Integral of the tabulated filter [pixels^2].
+  float filter_integral() const { return static_cast<float>(integral_); }
 
  private:
+  struct Offset {
+    dvec2 offset{0.0};   // from the pixel's centre [pixels]
+    float weight = 0.f;
+  };
+  void tabulate(const Filter& filter);
+  void accumulate();
+  Offset sample_offset(double x, double y) const;
+
   RasterFrame frame_;
-  std::shared_ptr<const Filter> filter_;
-  // Tabulated |f| for inversion, row by row: marginal over y, conditional over x.
-  std::vector<float> marginal_cdf_, conditional_cdf_;
-  std::vector<float> cell_sign_;
-  int cells_ = 0;
-  float integral_ = 1.f, abs_integral_ = 1.f;  // of f and |f| [pixels^2]
+  dvec2 radius_{0.5};
+  bool pixel_box_ = false;      // constant over exactly one pixel: positions map as they are
+  std::vector<float> values_;   // of the cells, row by row
+  // Tabulated |f| for inversion: marginal over rows, then conditional over the cells of a row; each
+  // starts with 0 and ends with 1.
+  std::vector<double> marginal_cdf_, conditional_cdf_;
+  double integral_ = 1.0, abs_integral_ = 1.0;  // of f and |f| [pixels^2]
 };
 
 }  // namespace pssmlt

@@ -30,6 +30,7 @@ class Splats {
   void clear() { splats_.clear(); }
   // Keep values of different tags apart (images by length or strategy asked for)?
   void keep_tags(bool keep) { keep_tags_ = keep; }
+  bool keeps_tags() const { return keep_tags_; }
 
   // Radiance estimate at the raster position of the camera subpath. Zero values are dropped.
   void camera(const Rgb& value, PathTag tag) {
@@ -53,6 +54,8 @@ class Splats {
   const std::vector<Splat>& all() const { return splats_; }
   bool empty() const { return splats_.empty(); }
   void assign(const Splat* first, size_t count) { splats_.assign(first, first + count); }
+  // Adds one splat as it is.
+  void add(const Splat& splat) { splats_.push_back(splat); }
 
  private:
   std::vector<Splat> splats_;  // growth past the reserve is counted by the allocation test
