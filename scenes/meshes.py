@@ -1,7 +1,7 @@
 """Meshes and their text, for generate.py. Standard library only.
 
-A mesh is (points, normals or None, triangles); a triangle's normal is cross(p1 - p0, p2 - p0), out of
-the solid.
+A mesh is (points, normals or None, triangles); a triangle's normal is cross(p1 - p0, p2 - p0), out
+of the solid.
 """
 import math
 
