@@ -90,7 +90,7 @@ void SceneBuilder::read_options() {
 }
 
 void SceneBuilder::build_raster() {
-  FilmSettings film = read_film(description_, options_, built_.log);
+  FilmDirective film = read_film(description_, options_, built_.log);
   Directive filter = description_.filter;
   if (filter.type.empty()) filter.type = options_.defaults.filter;
   const FoundPlugin found = Registry::instance().find("filter", filter.type, filter.where);

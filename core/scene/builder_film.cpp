@@ -54,7 +54,7 @@ void read_size(Parameters& film, const BuildOptions& options, RasterFrame& frame
   frame.crop_max = size;
 }
 
-void read_sensor(Parameters& film, FilmSettings& settings, std::vector<std::string>& log) {
+void read_sensor(Parameters& film, FilmDirective& settings, std::vector<std::string>& log) {
   const std::string sensor = film.text("sensor", "cie1931", "response of the sensor");
   if (sensor != "cie1931") {
     film.fail("sensor", "sensor \"" + sensor + "\" is not supported yet (only \"cie1931\")");
@@ -76,13 +76,13 @@ void read_sensor(Parameters& film, FilmSettings& settings, std::vector<std::stri
 
 }  // namespace
 
-FilmSettings read_film(const SceneDescription& scene, const BuildOptions& options,
+FilmDirective read_film(const SceneDescription& scene, const BuildOptions& options,
                        std::vector<std::string>& log) {
   if (scene.film.given() && scene.film.type != "rgb") {
     throw Error(scene.film.where, "film \"" + scene.film.type + "\" is unknown or not supported yet");
   }
   Parameters film(scene.film.parameters, scene.film.where, "film \"rgb\"", nullptr);
-  FilmSettings settings;
+  FilmDirective settings;
   RasterFrame& frame = settings.frame;
   read_size(film, options, frame);
   const std::vector<float> window =

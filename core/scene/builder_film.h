@@ -5,7 +5,7 @@
 
 namespace pssmlt {
 
-struct FilmSettings {
+struct FilmDirective {
   RasterFrame frame;  // filter_radius left for the filter
   std::string output;
   float max_component = infinity;
@@ -14,7 +14,7 @@ struct FilmSettings {
 
 // Reads Film with the command line's size, scale and crop. Throws Error (located) on sizes and
 // windows that make no picture. Notes go to log.
-FilmSettings read_film(const SceneDescription& scene, const BuildOptions& options,
+FilmDirective read_film(const SceneDescription& scene, const BuildOptions& options,
                        std::vector<std::string>& log);
 
 }  // namespace pssmlt
