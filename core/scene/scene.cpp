@@ -10,11 +10,14 @@ namespace {
 
 thread_local RayCounters thread_counters;
 thread_local std::function<void(const std::string&)> path_listener;
-thread_local bool path_logged = false;
+thread_local bool path_logged = false;  // either listener is set
+thread_local std::vector<RecordedRay>* recorded_rays = nullptr;
 
 std::string text(const vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v.x, v.y, v.z); }
 
 void log_ray(const char* what, const Ray& ray, const std::string& outcome) {
+  if (recorded_rays) recorded_rays->push_back({ray, what[0] == 's'});
+  if (!path_listener) return;
   path_listener(fmt::format("{} from {} along {}: {}", what, text(ray.origin), text(ray.direction),
                             outcome));
 }
@@ -30,8 +33,13 @@ float footprint_at(const Camera& camera, const vec3& position) {
 RayCounters& ray_counters() { return thread_counters; }
 
 void set_path_log(std::function<void(const std::string&)> listener) {
-  path_logged = static_cast<bool>(listener);
   path_listener = std::move(listener);
+  path_logged = path_listener || recorded_rays;
+}
+
+void record_rays(std::vector<RecordedRay>* rays) {
+  recorded_rays = rays;
+  path_logged = path_listener || recorded_rays;
 }
 
 Scene::Scene() = default;

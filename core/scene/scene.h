@@ -57,6 +57,8 @@ class Scene {
   const SceneFeatures& features() const { return features_; }
   const SceneBounds& bounds() const { return bounds_; }
   const std::vector<std::unique_ptr<Primitive>>& primitives() const { return primitives_; }
+  // For benchmarks: the acceleration structure alone.
+  const Accel& accel() const { return *accel_; }
   // Shading frame at a hit: the shading normal bent by the material's displacement, tangent along
   // dpdu.
   Frame shading_frame(const Hit& hit) const;
