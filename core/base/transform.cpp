@@ -84,9 +84,7 @@ dvec3 Transform::point(const dvec3& p) const {
 
 dvec3 Transform::vector(const dvec3& v) const { return dvec3(m_ * glm::dvec4(v, 0.0)); }
 
-dvec3 Transform::normal(const dvec3& n) const {
-  return glm::transpose(glm::dmat3(inverse_)) * n;
-}
+dvec3 Transform::normal(const dvec3& n) const { return glm::transpose(glm::dmat3(inverse_)) * n; }
 
 bool Transform::swaps_handedness() const { return glm::determinant(glm::dmat3(m_)) < 0.0; }
 

@@ -35,7 +35,7 @@ struct Directive {
   bool given() const { return where.line != 0 || !type.empty(); }
 };
 
-struct CameraDescription : Directive {    // its transform is camera from world
+struct CameraDescription : Directive {     // its transform is camera from world
   float start_time = 0.f, end_time = 1.f;  // when transform.start and .end hold (TransformTimes)
   std::string medium;                      // the medium around the camera, "" is vacuum
 };
@@ -69,12 +69,13 @@ struct LightDescription : Directive {
 
 struct ShapeDescription : Directive {
   bool reverse_orientation = false;
-  uint32_t material = 0;  // into SceneDescription::materials
-  int area_light = -1;    // into SceneDescription::area_lights, -1: none
+  uint32_t material = 0;                      // into SceneDescription::materials
+  int area_light = -1;                        // into SceneDescription::area_lights, -1: none
   std::string inside_medium, outside_medium;  // "" is vacuum; declared in SceneDescription::media
 };
 
-struct ObjectDescription {  // ObjectBegin ... ObjectEnd; the shapes' transforms are as if in the world
+struct ObjectDescription {  // ObjectBegin ... ObjectEnd; the shapes' transforms are as if in the
+                            // world
   std::string name;
   Location where;
   std::vector<ShapeDescription> shapes;
@@ -87,8 +88,8 @@ struct InstanceDescription {
 };
 
 struct SceneDescription {
-  std::string file;       // the first file, as it was named; for text its given name
-  std::string directory;  // of the first file: relative names in the scene start here
+  std::string file;                     // the first file, as it was named; for text its given name
+  std::string directory;                // of the first file: relative names in the scene start here
   std::vector<std::string> files_read;  // with everything included
   std::array<uint64_t, 2> hash{};       // of the (decompressed) text of all files, in reading order
 

@@ -110,7 +110,8 @@ Parameter ListReader::declaration() {
   if (text.find_first_not_of(spaces, name_end) != std::string::npos)
     tokens_.fail(token, "a parameter's name has no spaces: " + shown(token));
   Parameter p;
-  p.type = required_type(tokens_, token, std::string_view(text).substr(type_begin, type_end - type_begin));
+  p.type = required_type(tokens_, token,
+                         std::string_view(text).substr(type_begin, type_end - type_begin));
   p.name = text.substr(name_begin, name_end - name_begin);
   p.where = tokens_.where(token);
   values(p, token);
@@ -120,14 +121,18 @@ Parameter ListReader::declaration() {
 // The fast path; anything else falls out of it and is read, or complained about, token by token.
 void ListReader::fast_numbers(Parameter& p) {
   switch (p.type) {
-    case ParameterType::Integer: tokens_.append_numbers(p.ints); break;
+    case ParameterType::Integer:
+      tokens_.append_numbers(p.ints);
+      break;
     case ParameterType::Bool:
     case ParameterType::String:
-    case ParameterType::Texture: break;
+    case ParameterType::Texture:
+      break;
     case ParameterType::Spectrum:
       if (p.strings.empty()) tokens_.append_numbers(p.floats);
       break;
-    default: tokens_.append_numbers(p.floats);
+    default:
+      tokens_.append_numbers(p.floats);
   }
 }
 
@@ -152,8 +157,10 @@ void ListReader::values(Parameter& p, const Token& declared) {
 
 void ListReader::value(Parameter& p, const Token& token) {
   switch (p.type) {
-    case ParameterType::Bool: return boolean(p, token);
-    case ParameterType::Integer: return integer(p, token);
+    case ParameterType::Bool:
+      return boolean(p, token);
+    case ParameterType::Integer:
+      return integer(p, token);
     case ParameterType::String:
     case ParameterType::Texture:
       if (token.kind != TokenKind::String) fail_value(p, token, "a string in quotes");
@@ -167,7 +174,8 @@ void ListReader::value(Parameter& p, const Token& token) {
       }
       if (!p.strings.empty()) fail_value(p, token, "a string in quotes");
       return number(p, token);
-    default: return number(p, token);
+    default:
+      return number(p, token);
   }
 }
 
@@ -205,13 +213,20 @@ void ListReader::check_count(const Parameter& p, const Token& declared) {
   size_t group = 1;
   switch (p.type) {
     case ParameterType::Point2:
-    case ParameterType::Vector2: group = 2; break;
+    case ParameterType::Vector2:
+      group = 2;
+      break;
     case ParameterType::Point3:
     case ParameterType::Vector3:
     case ParameterType::Normal:
-    case ParameterType::Rgb: group = 3; break;
-    case ParameterType::Spectrum: group = 2; break;  // wavelength and value
-    default: break;
+    case ParameterType::Rgb:
+      group = 3;
+      break;
+    case ParameterType::Spectrum:
+      group = 2;
+      break;  // wavelength and value
+    default:
+      break;
   }
   if (p.floats.size() % group != 0)
     tokens_.fail(declared, described(p) + " has " + std::to_string(p.floats.size()) +
@@ -267,10 +282,14 @@ Parameter read_single_value(Tokenizer& tokens, std::string name,
   p.name = std::move(name);
   p.where = tokens.where(token);
   int whole = 0;
-  if (type) p.type = *type;
-  else if (token.kind == TokenKind::String) p.type = ParameterType::String;
-  else if (token.text == "true" || token.text == "false") p.type = ParameterType::Bool;
-  else p.type = parse_number(token.text, whole) ? ParameterType::Integer : ParameterType::Float;
+  if (type)
+    p.type = *type;
+  else if (token.kind == TokenKind::String)
+    p.type = ParameterType::String;
+  else if (token.text == "true" || token.text == "false")
+    p.type = ParameterType::Bool;
+  else
+    p.type = parse_number(token.text, whole) ? ParameterType::Integer : ParameterType::Float;
   ListReader(tokens).value(p, token);
   return p;
 }

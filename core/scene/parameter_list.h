@@ -21,7 +21,6 @@ std::optional<ParameterType> parameter_type(std::string_view name);
 
 // One value that is not a list, of a type that its spelling decides: "x" is a String, true a Bool,
 // 1 an Integer, 1.5 a Float; of the given type if there is one.
-Parameter read_single_value(Tokenizer& tokens, std::string name,
-                            std::optional<ParameterType> type);
+Parameter read_single_value(Tokenizer& tokens, std::string name, std::optional<ParameterType> type);
 
 }  // namespace pssmlt

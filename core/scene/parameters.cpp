@@ -17,19 +17,32 @@ using enum ParameterType;
 // Numbers of the value array that make one value of the type.
 size_t components(ParameterType type) {
   switch (type) {
-    case Point2: case Vector2: return 2;
-    case Point3: case Vector3: case Normal: case ParameterType::Rgb: return 3;
-    default: return 1;
+    case Point2:
+    case Vector2:
+      return 2;
+    case Point3:
+    case Vector3:
+    case Normal:
+    case ParameterType::Rgb:
+      return 3;
+    default:
+      return 1;
   }
 }
 
 size_t count(const Parameter& p) {
   switch (p.type) {
-    case Integer: return p.ints.size();
-    case Bool: return p.bools.size();
-    case String: case ParameterType::Texture: return p.strings.size();
-    case Spectrum: return p.strings.empty() ? (p.floats.empty() ? 0 : 1) : p.strings.size();
-    default: return p.floats.size() / components(p.type);
+    case Integer:
+      return p.ints.size();
+    case Bool:
+      return p.bools.size();
+    case String:
+    case ParameterType::Texture:
+      return p.strings.size();
+    case Spectrum:
+      return p.strings.empty() ? (p.floats.empty() ? 0 : 1) : p.strings.size();
+    default:
+      return p.floats.size() / components(p.type);
   }
 }
 
@@ -59,19 +72,32 @@ std::vector<std::string> to_strings(std::span<const std::string_view> views) {
 
 std::string_view to_string(ParameterType type) {
   switch (type) {
-    case Integer: return "integer";
-    case Float: return "float";
-    case Point2: return "point2";
-    case Vector2: return "vector2";
-    case Point3: return "point3";
-    case Vector3: return "vector3";
-    case Normal: return "normal";
-    case Bool: return "bool";
-    case String: return "string";
-    case ParameterType::Texture: return "texture";
-    case Spectrum: return "spectrum";
-    case ParameterType::Rgb: return "rgb";
-    case Blackbody: return "blackbody";
+    case Integer:
+      return "integer";
+    case Float:
+      return "float";
+    case Point2:
+      return "point2";
+    case Vector2:
+      return "vector2";
+    case Point3:
+      return "point3";
+    case Vector3:
+      return "vector3";
+    case Normal:
+      return "normal";
+    case Bool:
+      return "bool";
+    case String:
+      return "string";
+    case ParameterType::Texture:
+      return "texture";
+    case Spectrum:
+      return "spectrum";
+    case ParameterType::Rgb:
+      return "rgb";
+    case Blackbody:
+      return "blackbody";
   }
   return "unknown";
 }
@@ -103,8 +129,7 @@ const Parameter* Parameters::find_one(std::string_view name,
                                       std::initializer_list<ParameterType> accepted) {
   const Parameter* const p = find(name, accepted);
   if (p == nullptr) return nullptr;
-  if (count(*p) != 1)
-    fail_at(*p, "must have one value, has " + std::to_string(count(*p)));
+  if (count(*p) != 1) fail_at(*p, "must have one value, has " + std::to_string(count(*p)));
   check_finite(*p);
   return p;
 }
@@ -219,9 +244,9 @@ std::vector<V> Parameters::tuples(std::string_view name, ParameterType type, std
   if (p == nullptr) return {};
   check_finite(*p);
   constexpr size_t n = V::length();
-  if (p->floats.size() % n != 0) fail_at(*p, "must have a multiple of " + std::to_string(n) +
-                                                 " numbers, has " +
-                                                 std::to_string(p->floats.size()));
+  if (p->floats.size() % n != 0)
+    fail_at(*p, "must have a multiple of " + std::to_string(n) + " numbers, has " +
+                    std::to_string(p->floats.size()));
   std::vector<V> result(p->floats.size() / n);
   for (size_t i = 0; i < p->floats.size(); ++i)
     result[i / n][static_cast<int>(i % n)] = p->floats[i];
@@ -276,8 +301,7 @@ void Parameters::fail(const std::string& message) const {
 
 void Parameters::fail(std::string_view name, const std::string& message) const {
   const Parameter* const p = lookup(set_, name);
-  throw Error(p != nullptr ? p->where : where_,
-              owner_.empty() ? message : owner_ + ": " + message);
+  throw Error(p != nullptr ? p->where : where_, owner_.empty() ? message : owner_ + ": " + message);
 }
 
 }  // namespace pssmlt

@@ -25,8 +25,8 @@ std::string shortest(const Rgb& c) {
 Rgb Parameters::rgb(std::string_view name, const Rgb& fallback, SpectrumUse use,
                     std::string_view unit, std::string_view doc) {
   document(name, "rgb, spectrum or blackbody", shortest(fallback), unit, doc);
-  const Parameter* const p = find_one(
-      name, {ParameterType::Rgb, ParameterType::Spectrum, ParameterType::Blackbody});
+  const Parameter* const p =
+      find_one(name, {ParameterType::Rgb, ParameterType::Spectrum, ParameterType::Blackbody});
   return p != nullptr ? spectrum_to_rgb(*p, use, *resolver_) : fallback;
 }
 
@@ -45,8 +45,7 @@ std::shared_ptr<const Texture<float>> Parameters::float_texture(std::string_view
   document(name, "float or texture", shortest(fallback), unit, doc);
   const Parameter* const p = find_one(name, {ParameterType::Float, ParameterType::Texture});
   if (p == nullptr) return constant_texture(fallback);
-  if (p->type == ParameterType::Texture)
-    return resolver_->float_texture(p->strings[0], p->where);
+  if (p->type == ParameterType::Texture) return resolver_->float_texture(p->strings[0], p->where);
   return constant_texture(p->floats[0]);
 }
 
@@ -55,8 +54,7 @@ std::shared_ptr<const Texture<float>> Parameters::optional_float_texture(std::st
   document(name, "float or texture", "", "", doc);
   const Parameter* const p = find_one(name, {ParameterType::Float, ParameterType::Texture});
   if (p == nullptr) return nullptr;
-  if (p->type == ParameterType::Texture)
-    return resolver_->float_texture(p->strings[0], p->where);
+  if (p->type == ParameterType::Texture) return resolver_->float_texture(p->strings[0], p->where);
   return constant_texture(p->floats[0]);
 }
 
@@ -65,9 +63,8 @@ std::shared_ptr<const Texture<Rgb>> Parameters::rgb_texture(std::string_view nam
                                                             std::string_view unit,
                                                             std::string_view doc) {
   document(name, "rgb, spectrum, blackbody or texture", shortest(fallback), unit, doc);
-  const Parameter* const p =
-      find_one(name, {ParameterType::Rgb, ParameterType::Spectrum, ParameterType::Blackbody,
-                      ParameterType::Texture});
+  const Parameter* const p = find_one(name, {ParameterType::Rgb, ParameterType::Spectrum,
+                                             ParameterType::Blackbody, ParameterType::Texture});
   if (p == nullptr) return constant_texture(fallback);
   if (p->type == ParameterType::Texture) return resolver_->rgb_texture(p->strings[0], p->where);
   return constant_texture(spectrum_to_rgb(*p, use, *resolver_));

@@ -22,9 +22,11 @@ enum class Where : uint8_t { Anywhere, Options, World };
 class Parser {
  public:
   Parser(SceneDescription& scene, std::vector<std::string>* log)
-      : scene_(scene), state_(scene, [this](const Location& where, const std::string& message) {
-          fail(where, message);
-        }, log) {}
+      : scene_(scene),
+        state_(
+            scene,
+            [this](const Location& where, const std::string& message) { fail(where, message); },
+            log) {}
 
   // files: whether Include may open any. canonical: the text's own path, "" if it has none.
   void run(std::string_view text, std::shared_ptr<const std::string> name, bool files,
@@ -184,7 +186,8 @@ void Parser::check_block(const Rule& rule, const Location& where) const {
   const bool of_layer = name == "Sampler" || name == "Integrator" || name == "LayerEnd" ||
                         name == "WorldBegin";  // which complains about the open layer itself
   if (state_.in_layer() && !of_layer)
-    fail(where, name + " between LayerBegin and LayerEnd: only Sampler and Integrator may be there");
+    fail(where,
+         name + " between LayerBegin and LayerEnd: only Sampler and Integrator may be there");
 }
 
 void Parser::directives(Tokenizer& tokens) {
@@ -235,17 +238,21 @@ std::array<double, N> Parser::numbers(std::string_view directive) {
   if (!bracket) return values;
   const Token token = tokens().next();
   if (token.kind != TokenKind::Close)
-    tokens().fail(token, std::string(directive) + ": expected ']' after " + std::to_string(N) +
-                             " numbers");
+    tokens().fail(
+        token, std::string(directive) + ": expected ']' after " + std::to_string(N) + " numbers");
   return values;
 }
 
 void Parser::active_transform(const Location&) {
   const Token token = tokens().next();
-  if (token.text == "All") state_.activate(true, true);
-  else if (token.text == "StartTime") state_.activate(true, false);
-  else if (token.text == "EndTime") state_.activate(false, true);
-  else tokens().fail(token, "ActiveTransform must be followed by All, StartTime or EndTime");
+  if (token.text == "All")
+    state_.activate(true, true);
+  else if (token.text == "StartTime")
+    state_.activate(true, false);
+  else if (token.text == "EndTime")
+    state_.activate(false, true);
+  else
+    tokens().fail(token, "ActiveTransform must be followed by All, StartTime or EndTime");
 }
 
 // The file lists the matrix column by column, which is how glm stores it.
@@ -303,7 +310,8 @@ void Parser::import(const Location& where) {
 void Parser::read_file(std::string_view directive, const Location& where) {
   const std::string named = string_after(directive);
   if (!files_)
-    fail(where, std::string(directive) + " is not possible here: the scene is not read from a file");
+    fail(where,
+         std::string(directive) + " is not possible here: the scene is not read from a file");
   const std::string path = (std::filesystem::path(scene_.directory) / named).string();
   std::error_code ignored;
   const std::string canonical = std::filesystem::weakly_canonical(path, ignored).string();

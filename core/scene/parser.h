@@ -1,5 +1,5 @@
-// Reads scenes in pbrt-v4's text format (https://pbrt.org/fileformat-v4), with two extensions before
-// WorldBegin: any sampler under any integrator, and layers
+// Reads scenes in pbrt-v4's text format (https://pbrt.org/fileformat-v4), with two extensions
+// before WorldBegin: any sampler under any integrator, and layers
 //   LayerBegin "name" <parameters>  Sampler ...  Integrator ...  LayerEnd
 // whose images are summed. What a layer does not give is taken from the directives outside.
 #pragma once

@@ -37,8 +37,7 @@ void SceneState::note(const Location& where, const std::string& message) {
 }
 
 void SceneState::check_new(const std::map<std::string, Location, std::less<>>& known,
-                           const char* kind, const std::string& name,
-                           const Location& where) const {
+                           const char* kind, const std::string& name, const Location& where) const {
   const auto found = known.find(name);
   if (found != known.end())
     fail(where, std::string(kind) + " " + in_quotes(name) + " is already defined at " +
@@ -80,21 +79,24 @@ void SceneState::attribute(std::string target, ParameterSet parameters, const Lo
   if (found == targets.end())
     fail(where, "unknown target " + in_quotes(target) +
                     " of Attribute; must be \"shape\", \"light\", \"material\", \"medium\" or "
-                    "\"texture\"" + suggestion(target, targets));
+                    "\"texture\"" +
+                    suggestion(target, targets));
   auto& attributes = now_.attributes[static_cast<size_t>(found - targets.begin())];
   ParameterSet merged = attributes != nullptr ? *attributes : ParameterSet();
   for (Parameter& p : parameters) {
     p.was_read = true;  // a default for many directives need not suit every one of them
     const auto old = std::ranges::find(merged, p.name, &Parameter::name);
-    if (old != merged.end()) *old = std::move(p);
-    else merged.push_back(std::move(p));
+    if (old != merged.end())
+      *old = std::move(p);
+    else
+      merged.push_back(std::move(p));
   }
   attributes = std::make_shared<const ParameterSet>(std::move(merged));
 }
 
 void SceneState::camera(std::string type, ParameterSet parameters, const Location& where) {
-  CameraDescription camera{placed(std::move(type), std::move(parameters), where),
-                           now_.start_time, now_.end_time, now_.outside_medium};
+  CameraDescription camera{placed(std::move(type), std::move(parameters), where), now_.start_time,
+                           now_.end_time, now_.outside_medium};
   TransformPair inverse{camera.transform.start.inverse(), nullptr};
   if (camera.transform.animated())
     inverse.end = std::make_shared<const Transform>(camera.transform.end->inverse());
@@ -179,14 +181,16 @@ void SceneState::named_medium(std::string name, ParameterSet parameters, const L
   parameters = with_attributes(std::move(parameters), MediumTarget);
   std::string type = take_type(parameters, "medium", name, where);
   media_[name] = where;
-  scene_.media.push_back(
-      {placed(std::move(type), std::move(parameters), where), std::move(name)});
+  scene_.media.push_back({placed(std::move(type), std::move(parameters), where), std::move(name)});
 }
 
 void SceneState::shape(std::string type, ParameterSet parameters, const Location& where) {
   ShapeDescription shape{
       placed(std::move(type), with_attributes(std::move(parameters), ShapeTarget), where),
-      now_.reverse_orientation, now_.material, now_.area_light, now_.inside_medium,
+      now_.reverse_orientation,
+      now_.material,
+      now_.area_light,
+      now_.inside_medium,
       now_.outside_medium};
   auto& shapes = in_object_ ? scene_.objects.back().shapes : scene_.shapes;
   shapes.push_back(std::move(shape));
@@ -265,7 +269,8 @@ void SceneState::world_begin(const Location& where) {
 void SceneState::check_media() const {
   for (const auto& [name, where] : media_used_)
     if (!media_.contains(name))
-      fail(where, "medium " + in_quotes(name) + " is not defined" + suggestion(name, names(media_)));
+      fail(where,
+           "medium " + in_quotes(name) + " is not defined" + suggestion(name, names(media_)));
 }
 
 void SceneState::resolve_materials() {
@@ -290,16 +295,15 @@ void SceneState::resolve_instances() {
     const auto& [name, where] = instance_names_[i];
     const auto found = objects_.find(name);
     if (found == objects_.end())
-      fail(where, "object " + in_quotes(name) + " is not defined" +
-                      suggestion(name, names(objects_)));
+      fail(where,
+           "object " + in_quotes(name) + " is not defined" + suggestion(name, names(objects_)));
     scene_.instances[i].object = found->second;
   }
 }
 
 void SceneState::finish(const Location& end) {
   if (!pushed_.empty()) fail_unclosed(pushed_.back());
-  if (block_ == Block::Options)
-    fail(end, "the scene ends before WorldBegin");
+  if (block_ == Block::Options) fail(end, "the scene ends before WorldBegin");
   check_media();
   resolve_materials();
   resolve_instances();

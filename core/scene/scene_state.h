@@ -82,7 +82,7 @@ class SceneState {
 
  private:
   struct GraphicsState {
-    std::array<Transform, 2> ctm;  // at the start and the end of the shutter interval
+    std::array<Transform, 2> ctm;      // at the start and the end of the shutter interval
     std::array<Location, 2> singular;  // where the ctm became singular; line 0: it is not
     std::array<bool, 2> active{true, true};
     float start_time = 0.f, end_time = 1.f;
@@ -133,8 +133,7 @@ class SceneState {
   Directive sampler_, integrator_;  // outside layers
 
   // Where each name was declared.
-  std::map<std::string, Location, std::less<>> float_textures_, spectrum_textures_, media_,
-      layers_;
+  std::map<std::string, Location, std::less<>> float_textures_, spectrum_textures_, media_, layers_;
   std::map<std::string, uint32_t, std::less<>> materials_, objects_;
   // Names may be used before they are declared: shapes then hold pending_bit | index of the name.
   std::vector<PendingName> pending_materials_;

@@ -10,18 +10,24 @@ namespace {
 
 std::string begin_name(SceneState::Nested kind) {
   switch (kind) {
-    case SceneState::Nested::Attribute: return "AttributeBegin";
-    case SceneState::Nested::Transform: return "TransformBegin";
-    case SceneState::Nested::Object: return "ObjectBegin";
+    case SceneState::Nested::Attribute:
+      return "AttributeBegin";
+    case SceneState::Nested::Transform:
+      return "TransformBegin";
+    case SceneState::Nested::Object:
+      return "ObjectBegin";
   }
   return "";
 }
 
 std::string end_name(SceneState::Nested kind) {
   switch (kind) {
-    case SceneState::Nested::Attribute: return "AttributeEnd";
-    case SceneState::Nested::Transform: return "TransformEnd";
-    case SceneState::Nested::Object: return "ObjectEnd";
+    case SceneState::Nested::Attribute:
+      return "AttributeEnd";
+    case SceneState::Nested::Transform:
+      return "TransformEnd";
+    case SceneState::Nested::Object:
+      return "ObjectEnd";
   }
   return "";
 }
@@ -48,12 +54,11 @@ void SceneState::push(Nested kind, const Location& where) {
 }
 
 void SceneState::pop(Nested kind, const Location& where) {
-  if (pushed_.size() <= import_base_)
-    fail(where, end_name(kind) + " without " + begin_name(kind));
+  if (pushed_.size() <= import_base_) fail(where, end_name(kind) + " without " + begin_name(kind));
   Pushed& top = pushed_.back();
   if (top.kind != kind)
-    fail(where, end_name(kind) + " closes the " + begin_name(top.kind) + " at " +
-                    to_string(top.where));
+    fail(where,
+         end_name(kind) + " closes the " + begin_name(top.kind) + " at " + to_string(top.where));
   if (kind == Nested::Transform) {  // saves the transformations alone
     now_.ctm = top.state.ctm;
     now_.singular = top.state.singular;
@@ -66,8 +71,8 @@ void SceneState::pop(Nested kind, const Location& where) {
 
 void SceneState::object_begin(const std::string& name, const Location& where) {
   if (in_object_)
-    fail(where, "ObjectBegin inside the definition of object \"" + scene_.objects.back().name +
-                    "\"");
+    fail(where,
+         "ObjectBegin inside the definition of object \"" + scene_.objects.back().name + "\"");
   if (const auto known = objects_.find(name); known != objects_.end())
     fail(where, "object \"" + name + "\" is already defined at " +
                     to_string(scene_.objects[known->second].where));
@@ -153,7 +158,9 @@ void SceneState::transform_times(float start, float end, const Location& where) 
 }
 
 SceneState::Import::Import(SceneState& state)
-    : state_(state), saved_(state.now_), coordinates_(state.scene_.coordinate_systems),
+    : state_(state),
+      saved_(state.now_),
+      coordinates_(state.scene_.coordinate_systems),
       base_(std::exchange(state.import_base_, state.pushed_.size())) {}
 
 void SceneState::Import::finish() {

@@ -7,8 +7,8 @@
 
 namespace pssmlt {
 
-// " (did you mean 'x'?)" for the candidate that differs from `wrong` by the fewest edits (insertion,
-// deletion, substitution, swap of neighbours; case counts little), "" if none is near.
+// " (did you mean 'x'?)" for the candidate that differs from `wrong` by the fewest edits
+// (insertion, deletion, substitution, swap of neighbours; case counts little), "" if none is near.
 std::string suggestion(std::string_view wrong, std::span<const std::string> candidates);
 
 }  // namespace pssmlt

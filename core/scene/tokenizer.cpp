@@ -17,13 +17,17 @@ namespace pssmlt {
 namespace {
 
 // One byte's role in the text.
-bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+bool is_space(char c) {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
 bool ends_word(char c) { return is_space(c) || c == '"' || c == '[' || c == ']' || c == '#'; }
 
 // from_chars takes no plus sign, and takes "inf" and "nan", which pbrt's grammar has not.
 bool strip_sign(const char*& p, const char* end) {
-  if (p != end && *p == '+') ++p;
-  else if (p != end && *p == '-') return p + 1 != end && p[1] != '+' && p[1] != '-';
+  if (p != end && *p == '+')
+    ++p;
+  else if (p != end && *p == '-')
+    return p + 1 != end && p[1] != '+' && p[1] != '-';
   return p != end && *p != '+' && *p != '-';
 }
 
@@ -119,8 +123,7 @@ std::string read_text(const std::string& path, const Location& where) {
     throw Error(where, "cannot read '" + path + "': it is a directory");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
-  if (file == nullptr)
-    throw Error(where, "cannot open '" + path + "': " + std::strerror(errno));
+  if (file == nullptr) throw Error(where, "cannot open '" + path + "': " + std::strerror(errno));
   std::string text = read_plain(file.get(), path, where);
   const bool packed = text.size() >= 2 && text[0] == '\x1f' && text[1] == '\x8b';
   return packed ? gunzip(text, path, where) : text;
@@ -138,7 +141,10 @@ bool parse_number(std::string_view text, int& value) {
 }
 
 Tokenizer::Tokenizer(std::string_view text, std::shared_ptr<const std::string> name)
-    : text_(text), name_(std::move(name)), at_(text.data()), end_(text.data() + text.size()),
+    : text_(text),
+      name_(std::move(name)),
+      at_(text.data()),
+      end_(text.data() + text.size()),
       line_start_(text.data()) {
   if (text.starts_with("\xEF\xBB\xBF")) {  // byte order mark of UTF-8
     at_ += 3;
