@@ -215,6 +215,7 @@ void Film::load(Archive& archive) {
 void UnitSink::add(int plane, const Splats& splats, const PixelCredit& camera, double weight,
                    int group) {
   const bool clamped = unit_.clamp < infinity;
+  weight *= unit_.factor;
   const float camera_factor = clamped ? camera_clamp(splats) : 1.f;
   for (const Splat& s : splats.all()) {
     PixelCredit credit = camera;

@@ -131,6 +131,7 @@ class UnitSink final : public SplatSink {
     uint64_t seed = 0;  // of the layer
     int round = 0, unit = 0;
     float clamp = infinity;  // largest component of one sample's value; infinity: none
+    double factor = 1.0;     // what the film holds of a value: a power of two near its range
   };
   UnitSink(Film& film, BlockSums& blocks, const RasterMap& map, const Unit& unit)
       : film_(film), blocks_(blocks), map_(map), unit_(unit) {}

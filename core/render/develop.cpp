@@ -1,0 +1,220 @@
+#include "core/render/develop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace pssmlt {
+namespace {
+
+// A half's sum times this is an estimate of the whole: samples add up, scales are their inverse.
+std::array<double, 2> half_scales(const std::array<double, group_count>& group) {
+  std::array<double, 2> samples{};
+  for (size_t g = 0; g < group.size(); ++g) {
+    if (group[g] > 0.0) samples[g % 2] += 1.0 / group[g];
+  }
+  return {samples[0] > 0.0 ? 1.0 / samples[0] : 0.0, samples[1] > 0.0 ? 1.0 / samples[1] : 0.0};
+}
+
+}  // namespace
+
+LayerScales::LayerScales(const Sampler& s, int rounds)
+    : planes(s.planes()), common_variance(s.scale_relative_variance()), chain(s.is_chain()),
+      sampler(&s) {
+  for (int p = 0; p < planes; ++p) {
+    auto& scales = total.emplace_back();
+    for (int subset = 0; subset < s.subsets(); ++subset) {
+      scales.push_back(s.scale(p, subset, rounds));
+    }
+    auto& groups = group.emplace_back();
+    for (int g = 0; g < group_count; ++g) {
+      groups[static_cast<size_t>(g)] = s.group_scale(p, g, rounds);
+    }
+    half.push_back(half_scales(groups));
+  }
+  balance = 0.0;
+  if (half[0][0] > 0.0 && half[0][1] > 0.0) {
+    const double share = half[0][1] / (half[0][0] + half[0][1]);
+    balance = share * (1.0 - share);
+  }
+  nlohmann::json report;
+  s.report(report);
+  bootstrap_known = !report.is_object() || !report.contains("bootstrap_contributing") ||
+                    report["bootstrap_contributing"].get<double>() >= least_bootstrap;
+  if (!std::isfinite(common_variance)) bootstrap_known = false;
+}
+
+Developer::Developer(const Film& film, std::vector<LayerScales> layers, double picture_scale)
+    : film_(film), layers_(std::move(layers)), picture_scale_(picture_scale) {
+  for (const LayerScales& l : layers_) {
+    auto& subsets = subset_of_.emplace_back();
+    if (l.sampler->subsets() == 1) continue;
+    for (int p = 0; p < film.pixels(); ++p) {
+      subsets.push_back(static_cast<uint8_t>(l.sampler->subset_of(p)));
+    }
+  }
+}
+
+template <typename Value>
+Image Developer::image(const Value& value) const {
+  const ivec2 size = film_.settings().size;
+  Image result(size.x, size.y, 3);
+  for (int p = 0; p < film_.pixels(); ++p) {
+    const dvec3 v = value(p);
+    for (int c = 0; c < 3; ++c) {
+      result.data[static_cast<size_t>(p) * 3 + static_cast<size_t>(c)] = static_cast<float>(v[c]);
+    }
+  }
+  return result;
+}
+
+dvec3 Developer::pixel(int p) const {
+  dvec3 sum(0.0);
+  for (size_t l = 0; l < layers_.size(); ++l) {
+    const size_t subset = subset_of_[l].empty() ? 0 : subset_of_[l][static_cast<size_t>(p)];
+    for (int plane = 0; plane < layers_[l].planes; ++plane) {
+      const int layer = static_cast<int>(l);
+      const dvec3 both = film_.value(layer, plane, 0, p) + film_.value(layer, plane, 1, p);
+      sum += both * layers_[l].total[static_cast<size_t>(plane)][subset];
+    }
+  }
+  return sum * picture_scale_;
+}
+
+dvec3 Developer::half_pixel(int p, int layer, int which) const {
+  dvec3 sum(0.0);
+  const LayerScales& l = layers_[static_cast<size_t>(layer)];
+  for (int plane = 0; plane < l.planes; ++plane) {
+    sum += film_.value(layer, plane, which, p) *
+           l.half[static_cast<size_t>(plane)][static_cast<size_t>(which)];
+  }
+  return sum * picture_scale_;
+}
+
+dvec3 Developer::variance_pixel(int p) const {
+  dvec3 sum(0.0);
+  for (int l = 0; l < film_.layers(); ++l) {
+    const dvec3 d = half_pixel(p, l, 0) - half_pixel(p, l, 1);
+    sum += d * d * layers_[static_cast<size_t>(l)].balance;
+  }
+  return sum;
+}
+
+Image Developer::picture() const {
+  return image([this](int p) { return pixel(p); });
+}
+
+Image Developer::half(int which) const {
+  for (const LayerScales& l : layers_) {
+    if (!l.halves_known()) return {};
+  }
+  return image([&](int p) {
+    dvec3 sum(0.0);
+    for (int l = 0; l < film_.layers(); ++l) sum += half_pixel(p, l, which);
+    return sum;
+  });
+}
+
+Image Developer::variance() const {
+  for (const LayerScales& l : layers_) {
+    if (!l.halves_known()) return {};
+  }
+  return image([this](int p) { return variance_pixel(p); });
+}
+
+std::vector<SplitImage> Developer::splits(SplitKind kind) const {
+  std::vector<SplitImage> result;
+  for (const int index : film_.split_indices(kind)) {
+    const auto value = [&](int p) {
+      dvec3 sum(0.0);
+      for (size_t l = 0; l < layers_.size(); ++l) {
+        const size_t subset = subset_of_[l].empty() ? 0 : subset_of_[l][static_cast<size_t>(p)];
+        for (int plane = 0; plane < layers_[l].planes; ++plane) {
+          sum += film_.split_value(kind, index, static_cast<int>(l), plane, p) *
+                 layers_[l].total[static_cast<size_t>(plane)][subset];
+        }
+      }
+      return sum * picture_scale_;
+    };
+    const std::string name = kind == SplitKind::length
+                                 ? "length" + std::to_string(index)
+                                 : "s" + std::to_string(index / split_edge) + "t" +
+                                       std::to_string(index % split_edge);
+    result.push_back({name, image(value)});
+  }
+  return result;
+}
+
+ErrorEstimate Developer::error() const {
+  ErrorEstimate estimate;
+  for (const LayerScales& l : layers_) {
+    if (!l.bootstrap_known) estimate.why = "too few contributing bootstrap samples";
+  }
+  if (!estimate.why.empty()) return estimate;
+  estimate_picture_mean(estimate);
+  if (!estimate.mean_known) {
+    estimate.why = "fewer than " + std::to_string(least_groups) + " groups of samples";
+    return estimate;
+  }
+  estimate_pixels(estimate);
+  return estimate;
+}
+
+void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
+  double variance = 0.0;
+  int least = group_count;
+  for (int l = 0; l < film_.layers(); ++l) {
+    const LayerScales& layer = layers_[static_cast<size_t>(l)];
+    std::array<GroupMean, group_count> groups;
+    for (int g = 0; g < group_count; ++g) {
+      const auto at = static_cast<size_t>(g);
+      if (layer.group[0][at] <= 0.0) continue;
+      groups[at].weight = 1.0 / layer.group[0][at];
+      for (int p = 0; p < layer.planes; ++p) {
+        double sum = 0.0;
+        for (int b = 0; b < film_.blocks().count(); ++b) sum += film_.block_sum(l, p, g, b);
+        groups[at].mean += sum * layer.group[static_cast<size_t>(p)][at];
+      }
+      groups[at].mean *= picture_scale_ / film_.pixels();
+    }
+    const MeanEstimate m = estimate_mean(groups);
+    least = std::min(least, m.groups);
+    estimate.mean += m.mean;
+    variance += m.variance + layer.common_variance * m.mean * m.mean;
+  }
+  estimate.mean_known = least >= least_groups;
+  if (!estimate.mean_known) return;
+  const double half_width = student_quantile(least - 1.0) * std::sqrt(variance);
+  estimate.mean_low = estimate.mean - half_width;
+  estimate.mean_high = estimate.mean + half_width;
+}
+
+void Developer::estimate_pixels(ErrorEstimate& estimate) const {
+  bool chain = false;
+  double common = 0.0;
+  for (const LayerScales& l : layers_) {
+    chain = chain || l.chain;
+    common = std::max(common, l.common_variance);
+  }
+  // Errors of chains are correlated between neighbours: a block is one cell. Otherwise a pixel is.
+  const BlockGrid& grid = film_.blocks();
+  std::vector<double> cells(static_cast<size_t>(chain ? grid.count() : film_.pixels()));
+  const double epsilon = relative_mse_epsilon * estimate.mean * estimate.mean;
+  double energy = 0.0;
+  for (int p = 0; p < film_.pixels(); ++p) {
+    const dvec3 value = pixel(p);
+    const dvec3 variance = variance_pixel(p);
+    double& cell = cells[static_cast<size_t>(chain ? grid.block(p) : p)];
+    for (int c = 0; c < 3; ++c) {
+      const double square = value[c] * value[c];
+      const double denominator = square + epsilon;
+      if (denominator <= 0.0) continue;
+      cell += variance[c] / denominator;
+      energy += square / denominator;
+    }
+  }
+  const double count = 3.0 * film_.pixels();
+  estimate_relative_mse(cells, count, common * energy / count, estimate);
+}
+
+}  // namespace pssmlt

@@ -1,0 +1,62 @@
+// From the film's sums to pictures: each sampler's scales, halves, variance, images by path.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/render/error_estimate.h"
+#include "core/render/film.h"
+
+namespace pssmlt {
+
+// What develop() must know of a layer: its sampler's scales after so many rounds.
+struct LayerScales {
+  LayerScales(const Sampler& sampler, int rounds);
+  int planes = 1;
+  std::vector<std::vector<double>> total;           // [plane][subset]
+  std::vector<std::array<double, 2>> half;          // [plane][half]; 0: the half has nothing yet
+  std::vector<std::array<double, group_count>> group;  // [plane][group]; 0: nothing yet
+  double balance = 0.25;  // product of the halves' shares of the samples
+  double common_variance = 0.0;  // relative, of a factor common to all groups (b)
+  bool chain = false;
+  bool bootstrap_known = true;  // enough contributing samples to know b
+  const Sampler* sampler = nullptr;
+  bool halves_known() const { return balance > 0.0; }
+};
+
+// A picture per path length or strategy.
+struct SplitImage {
+  std::string name;  // "length2", "s1t3"
+  Image image;
+};
+
+class Developer {
+ public:
+  // picture_scale: factor from what the film holds to the picture.
+  Developer(const Film& film, std::vector<LayerScales> layers, double picture_scale);
+  Image picture() const;
+  // Empty image if the half has nothing yet.
+  Image half(int which) const;
+  // Variance of the picture per pixel and channel, from the difference of the halves.
+  Image variance() const;
+  std::vector<SplitImage> splits(SplitKind kind) const;
+  ErrorEstimate error() const;
+
+ private:
+  template <typename Value>
+  Image image(const Value& value) const;
+  dvec3 pixel(int p) const;
+  dvec3 half_pixel(int p, int layer, int which) const;
+  dvec3 variance_pixel(int p) const;
+  void estimate_pixels(ErrorEstimate& estimate) const;
+  void estimate_picture_mean(ErrorEstimate& estimate) const;
+
+  const Film& film_;
+  std::vector<LayerScales> layers_;
+  std::vector<std::vector<uint8_t>> subset_of_;  // [layer][pixel]; empty: one subset
+  double picture_scale_;
+};
+
+}  // namespace pssmlt
