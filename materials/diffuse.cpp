@@ -1,19 +1,10 @@
 // Lambertian reflection on both sides of a surface.
+#include "core/base/warp.h"
 #include "core/material_base.h"
 #include "core/plugin/plugin.h"
 
 namespace pssmlt {
 namespace {
-
-// A point of the unit disk, by the concentric map of Shirley and Chiu (1997).
-vec2 concentric_disk(const vec2& u) {
-  const vec2 p = 2.f * u - 1.f;
-  if (p.x == 0.f && p.y == 0.f) return vec2(0.f);
-  const bool x_leads = std::abs(p.x) > std::abs(p.y);
-  const float r = x_leads ? p.x : p.y;
-  const float phi = x_leads ? pi / 4.f * (p.y / p.x) : pi / 2.f - pi / 4.f * (p.x / p.y);
-  return {r * std::cos(phi), r * std::sin(phi)};
-}
 
 class DiffuseBsdf final : public Bsdf {
  public:
@@ -27,13 +18,12 @@ class DiffuseBsdf final : public Bsdf {
   }
   std::optional<BsdfSample> sample(const vec3& wo, float, const vec2& u, Transport) const override {
     if (wo.z == 0.f) return std::nullopt;
-    const vec2 p = concentric_disk(u);
-    const float z = safe_sqrt(1.f - p.x * p.x - p.y * p.y);
-    if (!(z > 0.f)) return std::nullopt;
+    const vec3 up = cosine_hemisphere(u);
+    if (!(up.z > 0.f)) return std::nullopt;
     BsdfSample s;
-    s.wi = {p.x, p.y, std::copysign(z, wo.z)};
+    s.wi = {up.x, up.y, std::copysign(up.z, wo.z)};
     s.weight = reflectance_;
-    s.pdf = z * inv_pi;
+    s.pdf = up.z * inv_pi;
     s.pdf_reverse = std::abs(wo.z) * inv_pi;
     return s;
   }

@@ -44,5 +44,7 @@ void write_image(const std::string& path, const Image& image, const ImageMetadat
 // Throws Error now if `path` could not be written later: unknown ending, missing folder, no
 // permission. Creates and removes a temporary file beside it.
 void check_writable(const std::string& path);
+// Throws Error now if there is no such view, naming those there are.
+void check_view(const DisplaySettings& display);
 
 }  // namespace pssmlt

@@ -1,0 +1,114 @@
+// An image, with pbrt-v4's parameters. The pixels are held in memory, as 8-bit values where the file
+// has them, and shared by all textures of the same file. The filters trilinear and ewa follow the
+// size of a pixel at the point's distance to the camera; point and bilinear use the full image.
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <tuple>
+
+#include "core/image/mipmap.h"
+#include "core/plugin/plugin.h"
+#include "core/texture.h"
+#include "core/texture_mapping.h"
+
+namespace pssmlt {
+namespace {
+
+constexpr std::array<std::string_view, 4> filter_names = {"point", "bilinear", "trilinear", "ewa"};
+constexpr std::array<std::string_view, 3> wrap_names = {"repeat", "black", "clamp"};
+
+template <size_t N>
+size_t index_of(const std::array<std::string_view, N>& names, const std::string& name) {
+  return static_cast<size_t>(std::ranges::find(names, name) - names.begin());
+}
+
+template <typename T>
+std::shared_ptr<const Mipmap<T>> load(const std::string& path, const std::string& encoding_name,
+                                      bool pyramid) {
+  using Key = std::tuple<std::string, std::string, bool>;
+  static std::map<Key, std::weak_ptr<const Mipmap<T>>> loaded;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const Mipmap<T>>& entry = loaded[{path, encoding_name, pyramid}];
+  if (auto known = entry.lock()) return known;
+  const ImageFile file = read_image_file(path);
+  const Encoding encoding =
+      encoding_name.empty() ? Encoding::srgb() : Encoding::parse(encoding_name);
+  auto made = std::make_shared<const Mipmap<T>>(file, encoding, pyramid);
+  entry = made;
+  return made;
+}
+
+template <typename T>
+class ImageMap final : public Texture<T> {
+ public:
+  static constexpr const char* summary = "an image file";
+
+  explicit ImageMap(Parameters& p)
+      : mapping_(p),
+        filter_(static_cast<TextureFilter>(index_of(
+            filter_names, p.choice("filter", "bilinear", filter_names,
+                                   "how pixels are averaged; point and bilinear ignore distance")))),
+        wrap_(static_cast<TextureWrap>(
+            index_of(wrap_names, p.choice("wrap", "repeat", wrap_names, "what lies outside")))),
+        scale_(p.number("scale", 1.f, "", "factor")),
+        invert_(p.flag("invert", false, "1 - value, after the factor")) {
+    const std::string path = p.file("filename", "the image");
+    const std::string encoding =
+        p.text("encoding", "", "sRGB, linear or gamma N of integer files; default: sRGB");
+    if (p.describing()) return;
+    if (path.empty()) p.fail("filename is needed");
+    try {
+      if (!encoding.empty()) Encoding::parse(encoding);
+    } catch (const Error& e) {
+      p.fail("encoding", e.what());
+    }
+    try {
+      const bool pyramid = filter_ == TextureFilter::trilinear || filter_ == TextureFilter::ewa;
+      image_ = load<T>(path, encoding, pyramid);
+    } catch (const Error& e) {
+      p.fail("filename", e.what());
+    }
+  }
+
+  T evaluate(const Hit& hit) const override {
+    // The image's first row is at t = 1.
+    vec2 st = mapping_.map(hit);
+    st.y = 1.f - st.y;
+    return adjusted(lookup(st, hit));
+  }
+
+ private:
+  T lookup(const vec2& st, const Hit& hit) const {
+    if (filter_ == TextureFilter::bilinear) return image_->bilinear(st, wrap_);
+    if (filter_ == TextureFilter::point) return image_->point(st, wrap_);
+    TextureFootprint f = mapping_.footprint(hit);
+    f.axis0.y = -f.axis0.y;
+    f.axis1.y = -f.axis1.y;
+    if (filter_ == TextureFilter::ewa) return image_->ewa(st, f.axis0, f.axis1, wrap_);
+    const vec2 widest = glm::max(glm::abs(f.axis0), glm::abs(f.axis1));
+    return image_->trilinear(st, std::max(widest.x, widest.y), wrap_);
+  }
+  // Not negative if a colour or inverted, as pbrt-v4. NaN stays NaN.
+  T adjusted(const T& value) const {
+    const auto positive = [](float v) { return v < 0.f ? 0.f : v; };
+    if constexpr (std::is_same_v<T, float>) {
+      return invert_ ? positive(1.f - scale_ * value) : scale_ * value;
+    } else {
+      const Rgb c = invert_ ? 1.f - scale_ * value : scale_ * value;
+      return {positive(c.x), positive(c.y), positive(c.z)};
+    }
+  }
+
+  TextureMapping2D mapping_;
+  TextureFilter filter_;
+  TextureWrap wrap_;
+  float scale_;
+  bool invert_;
+  std::shared_ptr<const Mipmap<T>> image_;
+};
+
+}  // namespace
+}  // namespace pssmlt
+
+PSSMLT_TEXTURE_PLUGIN("imagemap", pssmlt::ImageMap)
