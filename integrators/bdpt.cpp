@@ -1,0 +1,335 @@
+// Bidirectional path tracing (Veach 1997, chapter 10; Lafortune and Willems 1993): a subpath from
+// the camera and one from a light, all their vertices joined, every strategy (s light vertices,
+// t camera vertices; s >= 0, t >= 1) weighted by multiple importance sampling. The weights are
+// recursive (Georgiev et al. 2012, Implementing Vertex Connection and Merging), O(1) a strategy.
+// Good for light that both ends find half-way; blind only to specular-diffuse-specular paths from
+// lights that can't be hit.
+
+#include <array>
+
+#include "core/integrator.h"
+#include "core/path/light_draw.h"
+#include "core/path/strategies.h"
+#include "core/path/subpath.h"
+#include "core/plugin/plugin.h"
+
+namespace pssmlt {
+namespace {
+
+constexpr std::string_view heuristics[] = {"balance", "power"};
+
+// Vertices past this index are joined with one vertex of the other side, drawn at random, so that
+// the work grows linearly with the depth.
+constexpr int all_pairs = 32;
+
+// Subpaths of the last evaluations, by the identity of the numbers they were made from: a Markov
+// chain that changes one end keeps the other's subpath. Of the two, the current state's stays.
+class SubpathCache {
+ public:
+  // The subpath to use for `version`; `fresh` says that it has to be made.
+  Subpath& find(StreamVersion version, bool& fresh) {
+    for (Slot& slot : slots_) {
+      if (slot.version == version.now) {
+        fresh = false;
+        return slot.path;
+      }
+    }
+    fresh = true;
+    Slot& slot = slots_[0].version == version.keep ? slots_[1] : slots_[0];
+    slot.version = version.now;
+    return slot.path;
+  }
+  void reserve(int vertices) {
+    for (Slot& slot : slots_) slot.path.reserve(vertices);
+  }
+
+ private:
+  struct Slot {
+    uint64_t version = ~uint64_t{0};
+    Subpath path;
+  };
+  std::array<Slot, 2> slots_;
+};
+
+struct Scratch {
+  SubpathCache camera, light;
+};
+
+// One technique: s vertices on the light subpath, t on the camera subpath.
+struct Strategy {
+  int s = 0, t = 0;
+  int bounces() const { return s + t - 2; }
+  PathTag tag() const {
+    return {static_cast<uint16_t>(bounces()), static_cast<uint8_t>(std::min(s, 255)),
+            static_cast<uint8_t>(std::min(t, 255))};
+  }
+};
+
+double as_double(float x) { return static_cast<double>(x); }
+float cosine(const Surface& s, const vec3& direction) {
+  return std::abs(glm::dot(s.hit.ng, direction));
+}
+
+class Bdpt final : public Integrator {
+ public:
+  static constexpr const char* summary =
+      "bidirectional path tracing, all strategies with multiple importance sampling (Veach 1997)";
+
+  explicit Bdpt(Parameters& p)
+      : limits_(p),
+        mis_(p.choice("heuristic", "power", heuristics, "weights of the strategies (Veach 1997, "
+                      "section 9.2)") == "power" ? Mis::Heuristic::power : Mis::Heuristic::balance),
+        unweighted_(p.flag("unweighted", false, "every strategy counts in full, to look at "
+                           "strategies one by one; the picture is not their sum")),
+        only_s_(p.integer("s", -1, "vertices", "only strategies with this many light vertices; "
+                          "-1: all")),
+        only_t_(p.integer("t", -1, "vertices", "only strategies with this many camera vertices; "
+                          "-1: all")) {
+    const bool strategies = p.flag("visualizestrategies", false,
+                                   "not supported: ask the renderer for images by strategy");
+    const bool weights = p.flag("visualizeweights", false, "not supported, see there");
+    const bool regularize =
+        p.flag("regularize", false, "roughen surfaces after a rough bounce; not supported yet");
+    if (p.describing()) return;
+    if (regularize) p.fail("regularize", "regularize is not supported yet");
+    if (strategies || weights) {
+      p.fail(strategies ? "visualizestrategies" : "visualizeweights",
+             "not supported: ask for images by strategy on the command line instead (with "
+             "\"bool unweighted\" true for the unweighted ones)");
+    }
+    if (only_s_ < -1) p.fail("s", "s must be -1 or a number of vertices");
+    if (only_t_ < -1 || only_t_ == 0) p.fail("t", "t must be -1 or a number of vertices from 1 on");
+  }
+
+  void prepare(const Scene& scene) override {
+    scene_ = &scene;
+    tracer_ = std::make_unique<SubpathTracer>(scene, limits_, mis_);
+    // Without a surface that can be joined, light subpaths only serve to show the lamps themselves,
+    // which the camera subpath does better.
+    light_side_ = scene.features().connectible && !scene.lights().empty() &&
+                  limits_.max_bounces > 0;
+    lamps_to_lens_ = light_side_ && scene.features().area_lights;
+  }
+  std::string sees() const override {
+    return strategy::any_of({strategy::hit_light, strategy::next_event, strategy::join,
+                             strategy::lens, strategy::light_to_lens});
+  }
+  bool splats_light() const override { return true; }
+  const PathLimits& limits() const override { return limits_; }
+  void sample(PrimarySample& u, Splats& out, Workspace& workspace) const override;
+
+ private:
+  bool wants(Strategy st) const {
+    return (only_s_ < 0 || only_s_ == st.s) && (only_t_ < 0 || only_t_ == st.t) &&
+           limits_.in_range(st.bounces());
+  }
+  float weight(double light_side, double camera_side) const {
+    return unweighted_ ? 1.f : static_cast<float>(Mis::weight(light_side, camera_side));
+  }
+  void hit_lights(const Subpath& camera, Splats& out) const;
+  void hit(const Subpath& camera, int bounces, const Light& light, const EndpointPoint& at,
+           const Rgb& value, Splats& out) const;
+  void draw_lights(const Subpath& camera, PrimarySample& u, Splats& out) const;
+  void draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, Splats& out) const;
+  void lens_from_light(const Subpath& light, PrimarySample& u, Splats& out) const;
+  void lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats& out) const;
+  void join_all(const Subpath& camera, const Subpath& light, PrimarySample& u, Splats& out) const;
+  void join(const PathVertex& x, const PathVertex& y, Strategy st, float factor, Splats& out) const;
+
+  PathLimits limits_;
+  Mis mis_;
+  bool unweighted_;
+  int only_s_, only_t_;
+  const Scene* scene_ = nullptr;
+  std::unique_ptr<const SubpathTracer> tracer_;
+  bool light_side_ = false;     // light subpaths are made
+  bool lamps_to_lens_ = false;  // the strategy s = t = 1 is used
+};
+
+void Bdpt::sample(PrimarySample& u, Splats& out, Workspace& workspace) const {
+  Scratch& scratch = workspace.scratch<Scratch>();
+  const int room = std::min(limits_.max_bounces + 1, 200);
+  scratch.camera.reserve(room);
+  scratch.light.reserve(room);
+  bool fresh = false;
+  Subpath& camera = scratch.camera.find(u.version(Stream::camera), fresh);
+  u.raster();  // camera splats are credited there, whether or not the subpath is reused
+  if (fresh) tracer_->from_camera(u, camera);
+  hit_lights(camera, out);
+  draw_lights(camera, u, out);
+  if (!light_side_) return;
+  Subpath& light = scratch.light.find(u.version(Stream::light), fresh);
+  if (fresh) tracer_->from_light(u, light);
+  if (!light.started) return;
+  lens_from_light(light, u, out);
+  for (int k = 1; k <= light.size(); ++k) lens_from(light[k], {k + 1, 1}, u, out);
+  join_all(camera, light, u, out);
+}
+
+// s = 0: camera subpaths that met a light.
+void Bdpt::hit_lights(const Subpath& camera, Splats& out) const {
+  for (int k = 1; k <= camera.size(); ++k) {
+    const Surface& s = camera[k].surface;
+    const Light* const light = s.hit.primitive->light;
+    if (!light) continue;
+    hit(camera, k - 1, *light, s.light_point(), scene_->emitted(s.hit, s.wo), out);
+  }
+  const Escape& escape = camera.escape;
+  if (escape.bounces < 0) return;
+  EndpointPoint at;
+  at.normal = -escape.direction;
+  for (const Light* light : scene_->lights().infinite()) {
+    hit(camera, escape.bounces, *light, at, light->background(escape.direction), out);
+  }
+}
+
+// The subpath's vertex bounces + 1 lies on the light (or is its escape), which emits `value`.
+void Bdpt::hit(const Subpath& camera, int bounces, const Light& light, const EndpointPoint& at,
+               const Rgb& value, Splats& out) const {
+  const Strategy st{0, bounces + 2};
+  if (!wants(st) || is_black(value)) return;
+  const EndpointTraits traits = light.traits();
+  const bool infinite = traits.infinite;
+  const PathVertex* const v = infinite ? nullptr : &camera[bounces + 1];
+  if (!limits_.paths.ends(light_letter(traits), v ? v->state : camera.escape.state)) return;
+  const MisPartial& mis = v ? v->mis : camera.escape.mis;
+  const vec3 direction = v ? v->surface.wo : -camera.escape.direction;
+  const double p = as_double(scene_->lights().probability(&light));
+  const EmissionValue e = light.evaluate(at, direction);
+  double connect = 0.0;
+  if (bounces == 0) {
+    // Only s = t = 1 could have made this path, with a point drawn as for emission.
+    connect = lamps_to_lens_ && v ? p * as_double(e.pdf_position) : 0.0;
+  } else {
+    const vec3& from = camera.position(bounces);
+    connect = p * as_double(light.pdf_toward(from, at));
+    if (v) {
+      connect *= as_double(cosine(v->surface, direction)) /
+                 as_double(length_squared(at.position - from));
+    }
+  }
+  const double emit = p * as_double(e.pdf_position) * as_double(e.pdf_direction);
+  const Rgb& throughput = v ? v->throughput : camera.escape.throughput;
+  out.camera(weight(0.0, mis_.on_light(mis, connect, emit)) * throughput * value, st.tag());
+}
+
+// s = 1: next event estimation.
+void Bdpt::draw_lights(const Subpath& camera, PrimarySample& u, Splats& out) const {
+  if (scene_->lights().empty()) return;
+  for (int k = 1; k <= camera.size(); ++k) {
+    if (camera[k].connectible) draw_light_from(camera[k], {1, k + 1}, u, out);
+  }
+}
+
+void Bdpt::draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, Splats& out) const {
+  if (!wants(st)) return;
+  const Surface& surface = x.surface;
+  const auto draw = draw_light(*scene_, surface.hit.position, light_numbers(u, st.t - 1));
+  if (!draw || !limits_.paths.ends(draw->letter(), x.joined_state)) return;
+  const Toward& t = draw->toward;
+  const Rgb value = x.throughput * surface.f_cos(t.wi, Transport::radiance) * t.value / draw->pdf();
+  if (is_black(value)) return;
+  const double drawn = as_double(t.pdf_toward);
+  const double light_side =
+      draw->delta() ? 0.0 : mis_.f(as_double(surface.pdf(t.wi)) / as_double(draw->pdf()));
+  // The probability of choosing the light is the same whether it emits or is drawn.
+  const double emit = as_double(t.pdf_position) * as_double(t.pdf_direction) *
+                      as_double(cosine(surface, t.wi)) / (drawn * as_double(t.cosine));
+  const double camera_side =
+      light_side_ ? mis_.join(x.mis, emit, as_double(surface.pdf(t.wi, surface.wo))) : 0.0;
+  const float visible = scene_->visibility(surface.segment(t));
+  out.camera(visible * weight(light_side, camera_side) * value, st.tag());
+}
+
+// s = t = 1: the light itself as the lens sees it.
+void Bdpt::lens_from_light(const Subpath& light, PrimarySample& u, Splats& out) const {
+  const Strategy st{1, 1};
+  const EndpointTraits& traits = light.traits;
+  if (!lamps_to_lens_ || !wants(st) || light_letter(traits) != LightLetter::area) return;
+  const PathExpression& paths = limits_.paths;
+  if (!paths.ends(LightLetter::area, paths.from_camera())) return;
+  const EndpointPoint& at = light.start.from;
+  const auto lens = scene_->camera().toward(at.position, lens_connection_numbers(u, 0));
+  if (!lens || !(lens->pdf_toward > 0.f)) return;
+  const EmissionValue e = light.light->evaluate(at, lens->wi);
+  const float drawn = light.probability * light.start.pdf_position * lens->pdf_toward;
+  const Rgb value = e.value * lens->value * (e.cosine / drawn);
+  if (is_black(value)) return;
+  // The other strategy: a camera ray meets the light.
+  const double met = as_double(lens->pdf_position) * as_double(lens->pdf_direction) *
+                     as_double(e.cosine) / (as_double(lens->cosine) * as_double(drawn));
+  const Ray ray = Scene::segment(at.position, light.start.error, at.normal, lens->at.position,
+                                 lens->error, lens->at.normal);
+  out.light(lens->raster, scene_->visibility(ray) * weight(mis_.f(met), 0.0) * value, st.tag());
+}
+
+// t = 1: a light subpath's vertex as the lens sees it.
+void Bdpt::lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats& out) const {
+  if (!y.connectible || !wants(st)) return;
+  const PathExpression& paths = limits_.paths;
+  if (!paths.joins(y.joined_state, paths.from_camera())) return;
+  const Surface& surface = y.surface;
+  const auto lens =
+      scene_->camera().toward(surface.hit.position, lens_connection_numbers(u, st.s - 1));
+  if (!lens || !(lens->pdf_toward > 0.f)) return;
+  const Rgb f = surface.f_cos(lens->wi, Transport::importance);
+  const Rgb value = y.throughput * f * lens->value / lens->pdf_toward;
+  if (is_black(value)) return;
+  const double emit = as_double(lens->pdf_position) * as_double(lens->pdf_direction) *
+                      as_double(cosine(surface, lens->wi)) /
+                      (as_double(lens->pdf_toward) * as_double(lens->cosine));
+  const double light_side =
+      mis_.join(y.mis, emit, as_double(surface.pdf(lens->wi, surface.wo)));
+  const float visible = scene_->visibility(surface.segment(*lens));
+  out.light(lens->raster, visible * weight(light_side, 0.0) * value, st.tag());
+}
+
+// s, t >= 2. Every pair of vertices up to the bound; past it each vertex of the camera subpath is
+// joined with one vertex drawn uniformly, which then counts for all it could have been.
+void Bdpt::join_all(const Subpath& camera, const Subpath& light, PrimarySample& u,
+                    Splats& out) const {
+  for (int k = 1; k <= camera.size(); ++k) {
+    const PathVertex& x = camera[k];
+    if (!x.connectible) continue;
+    // Light vertices that may be joined: s + t - 2 = (j + 1) + (k + 1) - 2 bounces.
+    const int last = std::min(light.size(), limits_.max_bounces - k);
+    const int all = k <= all_pairs ? std::min(last, all_pairs) : 0;
+    for (int j = 1; j <= all; ++j) join(x, light[j], {j + 1, k + 1}, 1.f, out);
+    const int rest = last - all;
+    if (rest <= 0) continue;
+    const float pick = light_numbers(u, k).pick;
+    const int j = all + 1 + std::min(static_cast<int>(pick * static_cast<float>(rest)), rest - 1);
+    join(x, light[j], {j + 1, k + 1}, static_cast<float>(rest), out);
+  }
+}
+
+void Bdpt::join(const PathVertex& x, const PathVertex& y, Strategy st, float factor,
+                Splats& out) const {
+  if (!y.connectible || !wants(st)) return;
+  if (!limits_.paths.joins(y.joined_state, x.joined_state)) return;
+  const vec3 edge = y.surface.hit.position - x.surface.hit.position;
+  const float distance2 = length_squared(edge);
+  if (!(distance2 > 0.f)) return;
+  const vec3 to_y = edge / std::sqrt(distance2);
+  const vec3 to_x = -to_y;
+  const Rgb fx = x.surface.f_cos(to_y, Transport::radiance);
+  if (is_black(fx)) return;
+  const Rgb fy = y.surface.f_cos(to_x, Transport::importance);
+  const Rgb value = x.throughput * fx * fy * y.throughput * (factor / distance2);
+  if (is_black(value)) return;
+  const double d2 = as_double(distance2);
+  // Densities per area of each vertex as sampled from the other side.
+  const double at_y = as_double(x.surface.pdf(to_y)) * as_double(cosine(y.surface, to_y)) / d2;
+  const double at_x = as_double(y.surface.pdf(to_x)) * as_double(cosine(x.surface, to_x)) / d2;
+  const double light_side =
+      mis_.join(y.mis, at_y, as_double(y.surface.pdf(to_x, y.surface.wo)));
+  const double camera_side =
+      mis_.join(x.mis, at_x, as_double(x.surface.pdf(to_y, x.surface.wo)));
+  const float visible = scene_->visibility(x.surface.segment(y.surface));
+  out.camera(visible * weight(light_side, camera_side) * value, st.tag());
+}
+
+}  // namespace
+}  // namespace pssmlt
+
+PSSMLT_PLUGIN(Integrator, "bdpt", pssmlt::Bdpt, {"mlt", "pssmlt"})
