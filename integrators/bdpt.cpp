@@ -70,6 +70,13 @@ float cosine(const Surface& s, const vec3& direction) {
   return std::abs(glm::dot(s.hit.ng, direction));
 }
 
+// Density with which the endpoint's emission samples the vertex, over that of drawing the endpoint
+// from there (`drawn`); the length of the edge cancels.
+double emitted_over_drawn(const Toward& t, float cos_vertex, float drawn) {
+  return as_double(t.pdf_position) * as_double(t.pdf_direction) * as_double(cos_vertex) /
+         (as_double(t.cosine) * as_double(drawn));
+}
+
 class Bdpt final : public Integrator {
  public:
   static constexpr const char* summary =
@@ -229,12 +236,10 @@ void Bdpt::draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, S
   const Toward& t = draw->toward;
   const Rgb value = x.throughput * surface.f_cos(t.wi, Transport::radiance) * t.value / draw->pdf();
   if (is_black(value)) return;
-  const double drawn = as_double(t.pdf_toward);
   const double light_side =
       draw->delta() ? 0.0 : mis_.f(as_double(surface.pdf(t.wi)) / as_double(draw->pdf()));
   // The probability of choosing the light is the same whether it emits or is drawn.
-  const double emit = as_double(t.pdf_position) * as_double(t.pdf_direction) *
-                      as_double(cosine(surface, t.wi)) / (drawn * as_double(t.cosine));
+  const double emit = emitted_over_drawn(t, cosine(surface, t.wi), t.pdf_toward);
   const double camera_side =
       light_side_ ? mis_.join(x.mis, emit, as_double(surface.pdf(t.wi, surface.wo))) : 0.0;
   const float visible = scene_->visibility(surface.segment(t));
@@ -256,8 +261,7 @@ void Bdpt::lens_from_light(const Subpath& light, PrimarySample& u, Splats& out) 
   const Rgb value = e.value * lens->value * (e.cosine / drawn);
   if (is_black(value)) return;
   // The other strategy: a camera ray meets the light.
-  const double met = as_double(lens->pdf_position) * as_double(lens->pdf_direction) *
-                     as_double(e.cosine) / (as_double(lens->cosine) * as_double(drawn));
+  const double met = emitted_over_drawn(*lens, e.cosine, drawn);
   const Ray ray = Scene::segment(at.position, light.start.error, at.normal, lens->at.position,
                                  lens->error, lens->at.normal);
   out.light(lens->raster, scene_->visibility(ray) * weight(mis_.f(met), 0.0) * value, st.tag());
@@ -275,9 +279,7 @@ void Bdpt::lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats&
   const Rgb f = surface.f_cos(lens->wi, Transport::importance);
   const Rgb value = y.throughput * f * lens->value / lens->pdf_toward;
   if (is_black(value)) return;
-  const double emit = as_double(lens->pdf_position) * as_double(lens->pdf_direction) *
-                      as_double(cosine(surface, lens->wi)) /
-                      (as_double(lens->pdf_toward) * as_double(lens->cosine));
+  const double emit = emitted_over_drawn(*lens, cosine(surface, lens->wi), lens->pdf_toward);
   const double light_side =
       mis_.join(y.mis, emit, as_double(surface.pdf(lens->wi, surface.wo)));
   const float visible = scene_->visibility(surface.segment(*lens));
