@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "core/integrator.h"
 
@@ -74,14 +75,14 @@ class Sampler {
   virtual double scale_relative_variance() const { return 0.0; }
   // True for Markov chains: samples are correlated, per-sample clamping is refused.
   virtual bool is_chain() const { return false; }
-  // Samplers that are not chains: sets up worker.sample as the point that Evaluator::name_sample()
-  // called (pixel, index), ready for Evaluator::evaluate(). Follows start(). False: no such point.
-  virtual bool replay(int64_t pixel, int64_t index, Worker& worker) {
-    return (void)pixel, (void)index, (void)worker, false;
-  }
   // State beyond (seed, round): chains, b. load() follows start() with the same context.
   virtual void save(Archive& archive) const { (void)archive; }
   virtual void load(Archive& archive) { (void)archive; }
+  // Evaluates again the sample that a rejection named (core/sampling/replay.h): leaves its numbers
+  // in worker.sample and its splats in worker.splats. False if the key is not this sampler's.
+  virtual bool replay(const std::string& key, Worker& worker) {
+    return (void)key, (void)worker, false;
+  }
   // Acceptance rates, b and its error, ... for the summary and --json.
   virtual void report(nlohmann::json& statistics) const { (void)statistics; }
 };

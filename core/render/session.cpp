@@ -93,7 +93,7 @@ void Session::make_layers() {
   for (size_t l = 0; l < scene_.layers.size(); ++l) {
     LayerState state;
     state.layer = &scene_.layers[l];
-    state.seed = l == 0 ? settings_.seed : mix_bits(settings_.seed + l * 0x9E3779B97F4A7C15ull);
+    state.seed = layer_seed(settings_.seed, l);
     state.share = settings_.spp.value_or(state.layer->sampler->default_spp()) * film_.pixels();
     if (settings_.spp || !limited) state.target = state.share;
     state.tools.resize(static_cast<size_t>(pool_.threads()));

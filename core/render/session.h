@@ -25,6 +25,11 @@ struct LayerTools {
   Worker worker;
 };
 
+// Layers have seeds of their own; the first one's is the render's.
+inline uint64_t layer_seed(uint64_t seed, size_t layer) {
+  return layer == 0 ? seed : mix_bits(seed + layer * 0x9E3779B97F4A7C15ull);
+}
+
 // A layer while it renders.
 struct LayerState {
   const Layer* layer = nullptr;
