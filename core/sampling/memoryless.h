@@ -1,0 +1,65 @@
+// Base of the samplers that are not Markov chains: rounds of one sample for every pixel. A concrete
+// sampler only says which numbers a sample has.
+#pragma once
+
+#include "core/sampler.h"
+#include "core/sampling/raster_map.h"
+
+namespace pssmlt {
+
+// Which sample of the picture this is. Sweep k gives every pixel its k-th sample.
+struct SampleId {
+  uint32_t pixel = 0;   // index in the window, row major
+  uint32_t pixels = 1;  // in the window
+  uint64_t sweep = 0;
+  int group() const { return static_cast<int>(sweep % group_count); }
+};
+
+// Pictures of more than 2^21 pixels are served in interleaved subsets, one a round, so that a round
+// stays short. All groups have equally many samples in every pixel after 32 sweeps.
+//
+// One plane suffices while all pixels have the same count: camera splats divide by their pixel's
+// count and light splats by the mean count. With subsets the counts differ within a sweep, and light
+// splats have a plane of their own (1).
+class MemorylessSampler : public Sampler {
+ public:
+  void start(const SamplerContext& context) override;
+  double default_spp() const override { return spp_; }
+  int units(int round) const override { return (void)round, tiles_.x * tiles_.y; }
+  double samples(int round) const override { return subset_pixels_[subset_of_round(round)]; }
+  void run(int round, int unit, SplatSink& sink, Worker& worker) override;
+  int planes() const override { return subsets() > 1 ? 2 : 1; }
+  int subsets() const override { return subsets_; }
+  int subset_of(int pixel) const override;
+  double scale(int plane, int subset, int rounds) const override;
+  // With subsets, while a sweep is incomplete, the camera plane's factor is that of the mean count.
+  double group_scale(int plane, int group, int rounds) const override;
+  bool replay(const std::string& key, Worker& worker) override;
+
+ protected:
+  // name: of the plugin, static. spp: default samples per pixel. seed: the scene's own.
+  MemorylessSampler(const char* name, double spp, uint64_t seed)
+      : name_(name), spp_(spp), scene_seed_(seed) {}
+  // The four numbers of a block (index as in NumberSource) of a sample; a pure function.
+  virtual void fill(const SampleId& id, Stream stream, uint32_t index,
+                    NumberBlock& block) const = 0;
+  // Key of all random numbers: the scene's seed and the render's.
+  uint64_t seed() const { return seed_; }
+
+ private:
+  class Source;
+  size_t subset_of_round(int round) const { return static_cast<size_t>(round % subsets_); }
+  void run_pixel(const SampleId& id, int plane_of_light, SplatSink& sink, Worker& worker,
+                 Splats& light) const;
+  uint64_t samples_before(int rounds) const;
+  uint64_t group_samples(int group, int rounds) const;
+
+  const char* name_;
+  double spp_;
+  uint64_t scene_seed_, seed_ = 0;
+  ivec2 size_{0, 0}, tiles_{0, 0};
+  int subsets_ = 1;
+  std::vector<uint32_t> subset_pixels_{0};  // pixels of each subset
+};
+
+}  // namespace pssmlt

@@ -1,0 +1,174 @@
+#include "core/sampling/raster_map.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/error.h"
+
+namespace pssmlt {
+namespace {
+
+constexpr int cells = 64;           // a side
+constexpr int subcells = 4;         // midpoints a side whose mean is a cell's value
+constexpr float max_radius = 64.f;  // [pixels]
+constexpr size_t max_candidates = 2 * static_cast<size_t>(max_radius) + 1;
+
+// Interval of a cdf (0 first, 1 last) that holds u, and where in it [0,1).
+struct Inverted {
+  int interval;
+  double fraction;
+};
+Inverted invert(const double* cdf, double u) {
+  const double* after = std::upper_bound(cdf + 1, cdf + cells, u);
+  const double* before = after - 1;
+  const double width = *after - *before;
+  return {static_cast<int>(before - cdf), width > 0.0 ? (u - *before) / width : 0.5};
+}
+
+// Mean of the filter over one cell.
+float cell_value(const Filter& filter, int x, int y, const dvec2& radius) {
+  double sum = 0.0;
+  for (int j = 0; j < subcells; ++j) {
+    for (int i = 0; i < subcells; ++i) {
+      const dvec2 at(x + (i + 0.5) / subcells, y + (j + 0.5) / subcells);
+      sum += filter.evaluate(vec2((2.0 * at / static_cast<double>(cells) - 1.0) * radius));
+    }
+  }
+  return static_cast<float>(sum / (subcells * subcells));
+}
+
+// Pixels of one axis, absolute, whose support holds the position, cut to the window.
+struct PixelRange {
+  int first, last;
+};
+PixelRange supports(double position, double radius, int low, int high) {
+  const double first = std::ceil(position - radius - 0.5);
+  const double last = std::floor(position + radius - 0.5);
+  return {static_cast<int>(std::max(first, static_cast<double>(low))),
+          static_cast<int>(std::min(last, high - 1.0))};
+}
+
+}  // namespace
+
+RasterMap::RasterMap(const RasterFrame& frame, std::shared_ptr<const Filter> filter)
+    : frame_(frame), radius_(filter->radius()), values_(cells * cells) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!(radius_[axis] > 0.0 && radius_[axis] <= max_radius)) {
+      throw Error("the filter's radius must lie in (0, 64] pixels");
+    }
+  }
+  tabulate(*filter);
+  accumulate();
+  if (!(integral_ > 0.0) || !std::isfinite(integral_)) {
+    throw Error("the filter's integral must be positive");
+  }
+  const bool constant = std::ranges::all_of(values_, [&](float v) { return v == values_[0]; });
+  pixel_box_ = constant && radius_ == dvec2(0.5);
+}
+
+void RasterMap::tabulate(const Filter& filter) {
+  for (int y = 0; y < cells; ++y) {
+    for (int x = 0; x < cells; ++x) {
+      values_[static_cast<size_t>(y * cells + x)] = cell_value(filter, x, y, radius_);
+    }
+  }
+}
+
+void RasterMap::accumulate() {
+  marginal_cdf_.assign(cells + 1, 0.0);
+  conditional_cdf_.assign(cells * (cells + 1), 0.0);
+  double sum = 0.0, abs_sum = 0.0;
+  for (size_t y = 0; y < cells; ++y) {
+    double* row = &conditional_cdf_[y * (cells + 1)];
+    for (size_t x = 0; x < cells; ++x) {
+      const double value = values_[y * cells + x];
+      sum += value;
+      row[x + 1] = row[x] + std::abs(value);
+    }
+    abs_sum += row[cells];
+    marginal_cdf_[y + 1] = abs_sum;
+    const double row_sum = row[cells];
+    for (size_t x = 1; x <= cells && row_sum > 0.0; ++x) row[x] /= row_sum;
+  }
+  for (double& c : marginal_cdf_) c /= abs_sum;
+  const double cell_area = 4.0 * radius_.x * radius_.y / (cells * cells);
+  integral_ = sum * cell_area;
+  abs_integral_ = abs_sum * cell_area;
+}
+
+RasterMap::Offset RasterMap::sample_offset(double x, double y) const {
+  if (pixel_box_) return {dvec2(x, y) - 0.5, 1.f};
+  const Inverted row = invert(marginal_cdf_.data(), y);
+  const Inverted column = invert(&conditional_cdf_[static_cast<size_t>(row.interval * (cells + 1))], x);
+  const dvec2 at(column.interval + column.fraction, row.interval + row.fraction);
+  const float value = values_[static_cast<size_t>(row.interval * cells + column.interval)];
+  const double weight = abs_integral_ / integral_;
+  return {(2.0 * at / static_cast<double>(cells) - 1.0) * radius_,
+          static_cast<float>(value < 0.f ? -weight : weight)};
+}
+
+RasterMap::CameraPoint RasterMap::camera_point(double x, double y) const {
+  const ivec2 size = frame_.crop_size();
+  const dvec2 at(x * size.x, y * size.y);
+  const int column = std::min(static_cast<int>(at.x), size.x - 1);
+  const int row = std::min(static_cast<int>(at.y), size.y - 1);
+  return camera_point_in(row * size.x + column, at.x - column, at.y - row);
+}
+
+RasterMap::CameraPoint RasterMap::camera_point_in(int pixel, double x, double y) const {
+  const int width = frame_.crop_size().x;
+  const Offset offset = sample_offset(x, y);
+  const dvec2 center(frame_.crop_min.x + pixel % width + 0.5, frame_.crop_min.y + pixel / width + 0.5);
+  return {center + offset.offset, {pixel, offset.weight}};
+}
+
+float RasterMap::filter_value(const dvec2& offset) const {
+  const dvec2 at = (offset / radius_ + 1.0) * (0.5 * cells);
+  if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < cells && at.y < cells)) return 0.f;
+  return values_[static_cast<size_t>(static_cast<int>(at.y) * cells + static_cast<int>(at.x))];
+}
+
+PixelCredit RasterMap::pick(const dvec2& raster, float u) const {
+  const ivec2 low = frame_.crop_min, high = frame_.crop_max;
+  const int width = high.x - low.x;
+  const dvec2 outside = glm::max(dvec2(low) - raster, raster - dvec2(high));
+  if (!(outside.x <= radius_.x && outside.y <= radius_.y)) return {};
+  if (pixel_box_) {
+    const int x = static_cast<int>(std::floor(raster.x)), y = static_cast<int>(std::floor(raster.y));
+    if (x < low.x || y < low.y || x >= high.x || y >= high.y) return {};
+    return {(y - low.y) * width + x - low.x, 1.f};
+  }
+  const PixelRange xs = supports(raster.x, radius_.x, low.x, high.x);
+  const PixelRange ys = supports(raster.y, radius_.y, low.y, high.y);
+  const auto value = [&](int x, int y) { return filter_value(raster - dvec2(x + 0.5, y + 0.5)); };
+  double sum = 0.0;
+  std::array<double, max_candidates> row_sums{};
+  for (int y = ys.first; y <= ys.last; ++y) {
+    double& row_sum = row_sums[static_cast<size_t>(y - ys.first)];
+    for (int x = xs.first; x <= xs.last; ++x) row_sum += std::abs(value(x, y));
+    sum += row_sum;
+  }
+  if (!(sum > 0.0)) return {};
+  double left = u * sum;
+  PixelCredit chosen;
+  for (int y = ys.first; y <= ys.last; ++y) {
+    const double row_sum = row_sums[static_cast<size_t>(y - ys.first)];
+    if (row_sum == 0.0) continue;
+    if (left >= row_sum && y < ys.last) {
+      left -= row_sum;
+      continue;
+    }
+    for (int x = xs.first; x <= xs.last; ++x) {
+      const double f = value(x, y);
+      if (f == 0.0) continue;
+      // The last candidate stays chosen where rounding leaves something over.
+      chosen = {(y - low.y) * width + x - low.x,
+                static_cast<float>((f < 0.0 ? -sum : sum) / integral_)};
+      left -= std::abs(f);
+      if (left < 0.0) return chosen;
+    }
+  }
+  return chosen;
+}
+
+}  // namespace pssmlt

@@ -1,0 +1,79 @@
+#include "core/sampling/sobol.h"
+
+namespace pssmlt {
+namespace {
+
+// Primitive polynomials and initial direction numbers of dimensions 2 to 4 (Joe & Kuo 2008,
+// new-joe-kuo-6.21201); the first dimension is the van der Corput sequence.
+struct Direction {
+  uint32_t degree, coefficients;
+  std::array<uint32_t, 3> initial;
+};
+constexpr std::array<Direction, 3> directions = {
+    {{1, 0, {1, 0, 0}}, {2, 1, {1, 3, 0}}, {3, 1, {1, 3, 1}}}};
+
+// Column k of the generator matrix: what bit k of the index contributes.
+constexpr std::array<uint32_t, 32> columns(const Direction& d) {
+  std::array<uint32_t, 32> v{};
+  for (uint32_t k = 0; k < 32; ++k) {
+    if (k < d.degree) {
+      v[k] = d.initial[k] << (31 - k);
+      continue;
+    }
+    v[k] = v[k - d.degree] ^ (v[k - d.degree] >> d.degree);
+    for (uint32_t j = 1; j < d.degree; ++j) {
+      if (d.coefficients >> (d.degree - 1 - j) & 1u) v[k] ^= v[k - j];
+    }
+  }
+  return v;
+}
+
+// What each byte of the bit-reversed index contributes to the four bit-reversed coordinates: 16 kB.
+using ByteTable = std::array<std::array<NumberBlock, 256>, 4>;
+ByteTable make_table() {
+  ByteTable table{};
+  for (uint32_t dimension = 0; dimension < 4; ++dimension) {
+    std::array<uint32_t, 32> v{};  // by bit of the reversed index
+    if (dimension > 0) v = columns(directions[dimension - 1]);
+    for (uint32_t k = 0; k < 32; ++k) v[k] = dimension == 0 ? 1u << k : reverse_bits(v[k]);
+    for (uint32_t bit = 0; bit < 32; ++bit) {
+      for (uint32_t value = 0; value < 256; ++value) {
+        if (value >> bit % 8 & 1u) table[bit / 8][value][dimension] ^= v[31 - bit];
+      }
+    }
+  }
+  return table;
+}
+const ByteTable byte_table = make_table();
+
+}  // namespace
+
+NumberBlock sobol_reversed(uint32_t reversed_index) {
+  const NumberBlock& a = byte_table[0][reversed_index & 255u];
+  const NumberBlock& b = byte_table[1][reversed_index >> 8 & 255u];
+  const NumberBlock& c = byte_table[2][reversed_index >> 16 & 255u];
+  const NumberBlock& d = byte_table[3][reversed_index >> 24];
+  NumberBlock r;
+  for (size_t i = 0; i < 4; ++i) r[i] = a[i] ^ b[i] ^ c[i] ^ d[i];
+  return r;
+}
+
+NumberBlock sobol_block(uint64_t seed, uint64_t index, uint32_t block) {
+  const uint64_t key = mix_bits(seed + (index >> 32) * 0xD1342543DE82EF95ull +
+                                (block + 1ull) * 0x9E3779B97F4A7C15ull);
+  const uint64_t first = mix_bits(key ^ 0xA0761D6478BD642Full);
+  const uint64_t second = mix_bits(key ^ 0xE7037ED1A0B428DBull);
+  // From the most to the least significant digit is from low to high in reversed numbers, where the
+  // scramble flips each bit by those below it, as Owen's does by those above it. For the index
+  // that is a shuffle within every aligned block of 2^k points.
+  const uint32_t shuffled =
+      scramble_upward(reverse_bits(static_cast<uint32_t>(index)), static_cast<uint32_t>(key));
+  NumberBlock x = sobol_reversed(shuffled);
+  const std::array<uint32_t, 4> seeds = {
+      static_cast<uint32_t>(first), static_cast<uint32_t>(first >> 32),
+      static_cast<uint32_t>(second), static_cast<uint32_t>(second >> 32)};
+  for (size_t i = 0; i < 4; ++i) x[i] = reverse_bits(scramble_upward(x[i], seeds[i]));
+  return x;
+}
+
+}  // namespace pssmlt
