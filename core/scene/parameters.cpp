@@ -263,6 +263,10 @@ std::vector<vec3> Parameters::points3(std::string_view name, std::string_view un
   return tuples<vec3>(name, Point3, unit, doc);
 }
 
+std::vector<vec3> Parameters::vectors3(std::string_view name, std::string_view doc) {
+  return tuples<vec3>(name, Vector3, "", doc);
+}
+
 std::vector<vec3> Parameters::normals(std::string_view name, std::string_view doc) {
   return tuples<vec3>(name, Normal, "", doc);
 }

@@ -94,6 +94,7 @@ class Parameters {
   std::vector<int> integers(std::string_view name, std::string_view unit, std::string_view doc);
   std::vector<vec2> points2(std::string_view name, std::string_view unit, std::string_view doc);
   std::vector<vec3> points3(std::string_view name, std::string_view unit, std::string_view doc);
+  std::vector<vec3> vectors3(std::string_view name, std::string_view doc);
   std::vector<vec3> normals(std::string_view name, std::string_view doc);
   std::vector<std::string> texts(std::string_view name, std::string_view doc);
   // Only of type rgb (grids of colours), taken as linear components of the scene's colour space.
