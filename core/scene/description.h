@@ -101,7 +101,7 @@ struct SceneDescription {
 
   std::map<std::string, TransformPair, std::less<>> coordinate_systems;
   std::vector<TextureDescription> textures;    // in order of declaration: uses follow declarations
-  std::vector<MaterialDescription> materials;  // [0] is pbrt's default: "diffuse", no parameters
+  std::vector<MaterialDescription> materials;  // [0] is the default: no type, no parameters
   std::vector<MediumDescription> media;
   std::vector<LightDescription> lights;
   std::vector<Directive> area_lights;  // one per AreaLightSource, shared by its shapes

@@ -24,7 +24,7 @@ std::vector<std::string> names(const Map& map) {
 SceneState::SceneState(SceneDescription& scene, Fail fail, std::vector<std::string>* log)
     : scene_(scene), fail_(std::move(fail)), log_(log) {
   now_.color_space = std::make_shared<const std::string>("srgb");
-  scene_.materials.emplace_back().type = "diffuse";  // pbrt's material where none is named
+  scene_.materials.emplace_back();  // the default material: whoever builds the scene knows it
 }
 
 void SceneState::fail(const Location& where, const std::string& message) const {

@@ -93,7 +93,7 @@ TEST(Parser, WhatIsNotGivenSaysSo) {
   ASSERT_EQ(s.layers.size(), 1u);
   EXPECT_FALSE(s.layers[0].sampler.given());
   ASSERT_EQ(s.materials.size(), 1u);
-  EXPECT_EQ(s.materials[0].type, "diffuse");
+  EXPECT_EQ(s.materials[0].type, "");
 }
 
 TEST(Parser, TheLastOfTwoIntegratorsWins) {
