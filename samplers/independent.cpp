@@ -22,8 +22,8 @@ class Independent final : public MemorylessSampler {
   static Settings read(Parameters& p) {
     Settings s;
     s.samples = p.integer("pixelsamples", 16, "samples", "default number of samples per pixel");
-    s.seed = static_cast<uint32_t>(
-        p.integer("seed", 0, "", "another seed gives another noise pattern"));
+    s.seed =
+        static_cast<uint32_t>(p.integer("seed", 0, "", "another seed gives another noise pattern"));
     if (s.samples < 1) p.fail("pixelsamples", "\"pixelsamples\" must be at least 1");
     return s;
   }
@@ -32,7 +32,8 @@ class Independent final : public MemorylessSampler {
     const uint32_t what = index << 2 | static_cast<uint32_t>(stream);
     const auto use = static_cast<uint32_t>(RandomUse::sample);
     const auto sweep_high = static_cast<uint32_t>(id.sweep >> 32);
-    block = philox(seed(), {static_cast<uint32_t>(id.sweep), id.pixel, what, use | sweep_high << 8});
+    block =
+        philox(seed(), {static_cast<uint32_t>(id.sweep), id.pixel, what, use | sweep_high << 8});
   }
 };
 

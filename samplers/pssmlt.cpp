@@ -14,6 +14,7 @@
 #include "core/metropolis/advance.h"
 #include "core/metropolis/candidate_source.h"
 #include "core/metropolis/resampling.h"
+#include "core/metropolis/walk_parameters.h"
 #include "core/plugin/plugin.h"
 #include "core/sampler.h"
 #include "core/sampling/evaluator.h"
@@ -22,7 +23,6 @@
 namespace pssmlt {
 namespace {
 
-constexpr std::array<std::string_view, 3> kernel_names = {"kelemen", "gaussian", "cauchy"};
 constexpr std::array<std::string_view, 2> b_names = {"refined", "bootstrap"};
 constexpr std::array<std::string_view, 2> weight_names = {"expected", "kelemen"};
 constexpr std::array<std::string_view, 1> target_names = {"luminance"};
@@ -33,64 +33,24 @@ constexpr int64_t mutations_a_round = 1 << 18;
 
 struct Settings {
   StepMix mix;
-  KernelShape kernel = KernelShape::kelemen;
-  double sigma = 0.01, film_sigma = 0.0;
+  KernelChoice kernels;
   int chains = 0, bootstrap_samples = 100000, mutations_per_pixel = 100;
   bool refine_b = true, kelemen_weights = false;
   uint64_t seed = 0;
 };
 
-double probability(Parameters& p, std::string_view name, float fallback, std::string_view doc) {
-  const float value = p.number(name, fallback, "", doc);
-  if (!(value >= 0.f && value <= 1.f)) {
-    p.fail(name, "\"" + std::string(name) + "\" must lie in [0, 1]");
-  }
-  return value;
-}
-
-void read_steps(Parameters& p, Settings& s) {
-  s.mix.large = probability(p, "largestepprobability", 0.3f, "of drawing all numbers anew");
-  s.mix.film = probability(p, "filmprobability", 0.1f, "of small steps: of the film position alone");
-  s.mix.stream = probability(p, "streamprobability", 0.2f,
-                             "of small steps: of one stream alone (camera, light, connections)");
-  s.mix.range = probability(p, "rangeprobability", 0.f, "of small steps: of some vertices alone");
-  if (s.mix.large <= 0.0) p.fail("largestepprobability", "\"largestepprobability\" must not be 0");
-  if (s.mix.film + s.mix.stream + s.mix.range > 1.0 + 1e-6) {
-    p.fail("\"filmprobability\", \"streamprobability\" and \"rangeprobability\" sum to more than 1");
-  }
-}
-
-void read_kernel(Parameters& p, Settings& s) {
-  // pbrt's "mlt" has a gaussian kernel and "sigma" alone: who gives sigma means it.
-  const bool gaussian = p.has("sigma") && !p.has("kernel");
-  const std::string kernel = p.choice("kernel", gaussian ? "gaussian" : "kelemen", kernel_names,
-                                      "of small steps (default gaussian if sigma is given)");
-  s.kernel = kernel == "kelemen"    ? KernelShape::kelemen
-             : kernel == "gaussian" ? KernelShape::gaussian
-                                    : KernelShape::cauchy;
-  s.sigma = p.number("sigma", 0.01f, "", "scale of the gaussian or cauchy kernel; kelemen's is fixed");
-  s.film_sigma = p.number("filmsigma", 0.f, "picture sizes",
-                          "scale of steps of the film position; 0: as all other numbers");
-  if (!(s.sigma > 0.0 && s.sigma <= 1.0)) p.fail("sigma", "\"sigma\" must lie in (0, 1]");
-  if (!(s.film_sigma >= 0.0 && s.film_sigma <= 1.0)) {
-    p.fail("filmsigma", "\"filmsigma\" must lie in [0, 1]");
-  }
-  if (s.kernel == KernelShape::kelemen && p.has("sigma")) {
-    p.fail("sigma", "\"sigma\" has no meaning for the kernel \"kelemen\"");
-  }
-}
-
 Settings read_settings(Parameters& p) {
   Settings s;
-  read_steps(p, s);
-  read_kernel(p, s);
+  s.mix = read_step_mix(p);
+  s.kernels = read_kernels(p);
   s.chains = p.integer("chains", 0, "", "number of chains, a multiple of 32; 0: by the image size");
   s.bootstrap_samples = p.integer("bootstrapsamples", 100000, "samples",
                                   "independent samples that give b and the chains' seeds");
   s.mutations_per_pixel =
       p.integer("mutationsperpixel", 100, "mutations", "default budget, per pixel");
-  s.refine_b = p.choice("b", "refined", b_names,
-                        "normalisation: refined by every large step, or the bootstrap's") == "refined";
+  s.refine_b =
+      p.choice("b", "refined", b_names,
+               "normalisation: refined by every large step, or the bootstrap's") == "refined";
   s.kelemen_weights = p.choice("weights", "expected", weight_names,
                                "credit by expected value, or Kelemen's, which weigh large steps "
                                "as independent samples too") == "kelemen";
@@ -186,7 +146,7 @@ class Pssmlt final : public Sampler {
   std::optional<StepChooser> chooser_;
   double pixels_ = 1.0;
   int chain_count_ = 0;
-  int steps_ = 1;  // mutations of each chain in a round
+  int steps_ = 1;                   // mutations of each chain in a round
   std::vector<double> candidates_;  // target's values, until the chains have started
   MeanTally bootstrap_;
   uint64_t contributing_ = 0;  // candidates that found light
@@ -196,8 +156,9 @@ class Pssmlt final : public Sampler {
 
 void Pssmlt::start(const SamplerContext& context) {
   if (!context.integrator.fixed()) {
-    throw Error("sampler \"pssmlt\": this integrator's estimate changes from round to round, so that "
-                "no Markov chain can follow it; choose another sampler");
+    throw Error(
+        "sampler \"pssmlt\": this integrator's estimate changes from round to round, so that "
+        "no Markov chain can follow it; choose another sampler");
   }
   plan(context.raster_map.frame());
   walk_.seed = mix_bits(context.seed + mix_bits(settings_.seed));
@@ -223,14 +184,13 @@ void Pssmlt::plan(const RasterFrame& frame) {
   const int64_t a_round = std::min(static_cast<int64_t>(pixels_), mutations_a_round);
   steps_ = static_cast<int>(std::clamp<int64_t>(a_round / chain_count_, 16, 1024));
 
-  const double scale = settings_.kernel == KernelShape::kelemen ? 1.0 / 64 : settings_.sigma;
-  walk_.kernel = Kernel(settings_.kernel, scale);
-  const double film = settings_.film_sigma > 0.0 ? settings_.film_sigma : scale;
+  const KernelChoice& k = settings_.kernels;
+  walk_.kernel = Kernel(k.shape, k.scale);
   // The same distance in pixels along both axes.
   const dvec2 size(frame.crop_size());
   const double side = std::sqrt(size.x * size.y);
-  walk_.film_x = Kernel(settings_.kernel, film * side / size.x);
-  walk_.film_y = Kernel(settings_.kernel, film * side / size.y);
+  walk_.film_x = Kernel(k.shape, k.film_scale * side / size.x);
+  walk_.film_y = Kernel(k.shape, k.film_scale * side / size.y);
 }
 
 void Pssmlt::bootstrap(const SamplerContext& context) {
@@ -263,8 +223,8 @@ void Pssmlt::bootstrap(const SamplerContext& context) {
 void Pssmlt::start_chains(const SamplerContext& context) {
   const RandomBlock bits =
       philox(walk_.seed, {0, 0, 0, static_cast<uint32_t>(RandomUse::resample)});
-  const std::vector<uint32_t> seeds = systematic_resample(
-      candidates_, static_cast<size_t>(chain_count_), to_unit_double(bits[0]));
+  const std::vector<uint32_t> seeds =
+      systematic_resample(candidates_, static_cast<size_t>(chain_count_), to_unit_double(bits[0]));
   chains_.assign(seeds.size(), {});
   const int units = chain_count_ / chains_a_unit;
   tallies_.assign(static_cast<size_t>(units), {});

@@ -1,7 +1,7 @@
 // Owen-scrambled Sobol' points (Burley 2020): numbers of a pixel fill their dimensions evenly, four
 // dimensions together, for any number of samples and dimensions; the error of smooth integrands
-// falls faster than 1/sqrt(samples). The light stream is one sequence over the whole picture, so that
-// light subpaths cover the lights evenly. The default sampler.
+// falls faster than 1/sqrt(samples). The light stream is one sequence over the whole picture, so
+// that light subpaths cover the lights evenly. The default sampler.
 //
 // Even and odd groups have scrambles of their own, so that the two half images are independent and
 // their difference tells the error. One scramble for each of the 32 groups would make all groups
@@ -37,8 +37,8 @@ class Sobol final : public MemorylessSampler {
   static Settings read(Parameters& p) {
     Settings s;
     s.samples = p.integer("pixelsamples", 16, "samples", "default number of samples per pixel");
-    s.seed = static_cast<uint32_t>(
-        p.integer("seed", 0, "", "another seed gives another noise pattern"));
+    s.seed =
+        static_cast<uint32_t>(p.integer("seed", 0, "", "another seed gives another noise pattern"));
     const std::string randomization =
         p.choice("randomization", "fastowen", randomizations,
                  "accepted for pbrt's scenes; points are always Owen-scrambled by hashing");
@@ -66,5 +66,5 @@ class Sobol final : public MemorylessSampler {
 }  // namespace
 }  // namespace pssmlt
 
-PSSMLT_PLUGIN(Sampler, "sobol", pssmlt::Sobol, {"halton", ""}, {"zsobol", ""},
-              {"paddedsobol", ""}, {"pmj02bn", ""}, {"02sequence", ""})
+PSSMLT_PLUGIN(Sampler, "sobol", pssmlt::Sobol, {"halton", ""}, {"zsobol", ""}, {"paddedsobol", ""},
+              {"pmj02bn", ""}, {"02sequence", ""})

@@ -23,15 +23,17 @@ class Stratified final : public MemorylessSampler {
  private:
   explicit Stratified(const StrataSettings& s)
       : MemorylessSampler("stratified", double(s.x) * s.y, s.seed),
-        x_(static_cast<uint32_t>(s.x)), y_(static_cast<uint32_t>(s.y)), jitter_(s.jitter) {}
+        x_(static_cast<uint32_t>(s.x)),
+        y_(static_cast<uint32_t>(s.y)),
+        jitter_(s.jitter) {}
 
   static StrataSettings read(Parameters& p) {
     StrataSettings s{};
     s.x = p.integer("xsamples", 4, "samples", "strata of a pixel in x");
     s.y = p.integer("ysamples", 4, "samples", "strata of a pixel in y");
     s.jitter = p.flag("jitter", true, "random position in a stratum, not its centre");
-    s.seed = static_cast<uint32_t>(
-        p.integer("seed", 0, "", "another seed gives another noise pattern"));
+    s.seed =
+        static_cast<uint32_t>(p.integer("seed", 0, "", "another seed gives another noise pattern"));
     const bool sane = s.x >= 1 && s.y >= 1 && int64_t{s.x} * s.y <= 1 << 24;
     if (!sane) p.fail("xsamples * ysamples must lie between 1 and 2^24");
     return s;

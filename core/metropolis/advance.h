@@ -14,9 +14,9 @@ namespace pssmlt {
 // b / (beta N) for the chain's and 1 / N for the large steps' own, is the integral.
 //  expected: beta / F. Only the chain's credits exist.
 //  kelemen: 1 / (F / beta + large) (Kelemen et al. 2002, section 5.2): large steps are independent
-//    uniform samples and combined with the chain by the balance heuristic. Beta is b as the bootstrap
-//    found it and never changes; that b moves on does not make the weights wrong, since the chain's
-//    credits are scaled by b / beta and those of the large steps by 1.
+//    uniform samples and combined with the chain by the balance heuristic. Beta is b as the
+//    bootstrap found it and never changes; that b moves on does not make the weights wrong, since
+//    the chain's credits are scaled by b / beta and those of the large steps by 1.
 class CreditRule {
  public:
   static CreditRule expected(double beta) { return {beta, 0.0}; }
@@ -36,8 +36,8 @@ struct WalkTally {
     uint64_t proposed = 0, accepted = 0;
   };
   std::array<Kind, step_kinds> kinds{};
-  MeanTally large_values;       // target's values at large steps: independent samples of b
-  uint64_t longest_stuck = 0;   // mutations in one state
+  MeanTally large_values;      // target's values at large steps: independent samples of b
+  uint64_t longest_stuck = 0;  // mutations in one state
   void merge(const WalkTally& other) {
     for (size_t k = 0; k < step_kinds; ++k) {
       kinds[k].proposed += other.kinds[k].proposed;

@@ -5,8 +5,8 @@
 
 namespace pssmlt {
 
-// Independent uniform numbers of candidate `index`: not stored, but made again from the index when a
-// chain starts there.
+// Independent uniform numbers of candidate `index`: not stored, but made again from the index when
+// a chain starts there.
 class CandidateSource final : public NumberSource {
  public:
   CandidateSource(uint64_t seed, uint32_t index) : seed_(seed), index_(index) {}

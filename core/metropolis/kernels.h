@@ -14,10 +14,12 @@ enum class KernelShape : uint8_t { kelemen, gaussian, cauchy };
 
 class Kernel {
  public:
-  // scale, in units of the torus: kelemen: the largest distance s2, with s1 = s2 / ratio (Kelemen et
-  // al. 2002, section 4: s1 = 1/1024, s2 = 1/64); gaussian: standard deviation; cauchy: half width.
+  // scale, in units of the torus: kelemen: the largest distance s2, with s1 = s2 / ratio (Kelemen
+  // et al. 2002, section 4: s1 = 1/1024, s2 = 1/64); gaussian: standard deviation; cauchy: half
+  // width.
   Kernel(KernelShape shape, double scale, double ratio = 16.0)
-      : shape_(shape), scale_(static_cast<float>(std::min(scale, 1.0) * 0x1p32)),
+      : shape_(shape),
+        scale_(static_cast<float>(std::min(scale, 1.0) * 0x1p32)),
         log2_ratio_(static_cast<float>(std::log2(ratio))) {}
 
   // The number after a step that the 32 random bits decide.
@@ -30,9 +32,12 @@ class Kernel {
   uint32_t distance_of(uint32_t bits) const {
     const float u = (static_cast<float>(bits >> 9) + 0.5f) * 0x1p-22f;  // exact, in (0, 1)
     switch (shape_) {
-      case KernelShape::kelemen: return to_torus(scale_ * std::exp2(-log2_ratio_ * u));
-      case KernelShape::gaussian: return to_torus(scale_ * half_normal(u));
-      case KernelShape::cauchy: break;
+      case KernelShape::kelemen:
+        return to_torus(scale_ * std::exp2(-log2_ratio_ * u));
+      case KernelShape::gaussian:
+        return to_torus(scale_ * half_normal(u));
+      case KernelShape::cauchy:
+        break;
     }
     return to_torus(scale_ * std::tan(0.5f * std::numbers::pi_v<float> * u));
   }
@@ -72,7 +77,7 @@ class Kernel {
   }
 
   KernelShape shape_;
-  float scale_;       // in units of 2^-32
+  float scale_;  // in units of 2^-32
   float log2_ratio_;
 };
 

@@ -7,8 +7,8 @@ namespace pssmlt {
 namespace {
 
 constexpr unsigned all_streams = (1u << stream_count) - 1;
-constexpr std::array<Stream, stream_count> streams_in_order = {
-    Stream::camera, Stream::light, Stream::connection, Stream::shared};
+constexpr std::array<Stream, stream_count> streams_in_order = {Stream::camera, Stream::light,
+                                                               Stream::connection, Stream::shared};
 
 constexpr StepKind kind_of(Stream stream) {
   return static_cast<StepKind>(static_cast<int>(StepKind::camera) + static_cast<int>(stream));
@@ -61,8 +61,10 @@ Step StepChooser::make(StepKind kind, uint32_t range_bits) {
   constexpr uint32_t blocks = blocks_per_vertex;
   switch (kind) {
     case StepKind::large:
-    case StepKind::all: return {kind, all_streams};
-    case StepKind::film: return {kind, 1u << static_cast<unsigned>(Stream::camera), 0, 1};
+    case StepKind::all:
+      return {kind, all_streams};
+    case StepKind::film:
+      return {kind, 1u << static_cast<unsigned>(Stream::camera), 0, 1};
     case StepKind::camera:
     case StepKind::light:
     case StepKind::connection:
@@ -70,7 +72,8 @@ Step StepChooser::make(StepKind kind, uint32_t range_bits) {
       const int stream = static_cast<int>(kind) - static_cast<int>(StepKind::camera);
       return {kind, 1u << stream};
     }
-    case StepKind::range: break;
+    case StepKind::range:
+      break;
   }
   const uint32_t first = geometric(range_bits >> 16);
   const uint32_t vertices = 1 + geometric(range_bits & 0xFFFFu);

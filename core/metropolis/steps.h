@@ -10,14 +10,14 @@
 namespace pssmlt {
 
 enum class StepKind : uint8_t {
-  large,       // all numbers drawn anew
-  all,         // all numbers moved a little
-  film,        // the raster pair alone
-  camera,      // one stream
+  large,   // all numbers drawn anew
+  all,     // all numbers moved a little
+  film,    // the raster pair alone
+  camera,  // one stream
   light,
   connection,
   shared,
-  range        // some vertices, in all streams
+  range  // some vertices, in all streams
 };
 inline constexpr int step_kinds = 8;
 std::string_view to_string(StepKind kind);

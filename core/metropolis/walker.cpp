@@ -42,8 +42,8 @@ void Walker::load(uint32_t chain, uint64_t mutation, const StoredNumbers& number
 RandomBlock Walker::random(RandomUse use, uint32_t what) const {
   // 24 bits of the mutation's number beside the use: 2^56 mutations a chain.
   const auto high = static_cast<uint32_t>(mutation_ >> 32) << 8;
-  return philox(settings_.seed,
-                {what, static_cast<uint32_t>(mutation_), chain_, static_cast<uint32_t>(use) | high});
+  return philox(settings_.seed, {what, static_cast<uint32_t>(mutation_), chain_,
+                                 static_cast<uint32_t>(use) | high});
 }
 
 const Step& Walker::propose() {

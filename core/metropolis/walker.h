@@ -37,8 +37,8 @@ struct Transition {
 };
 
 // Numbers that the current state holds are moved by the kernel where the step says so; numbers that
-// it does not hold are, given the state, uniform, and drawn fresh when the proposal first reads them
-// (a Gibbs step, which leaves the target invariant).
+// it does not hold are, given the state, uniform, and drawn fresh when the proposal first reads
+// them (a Gibbs step, which leaves the target invariant).
 class Walker final : public NumberSource {
  public:
   Walker(const WalkSettings& settings, const StepChooser& chooser, PrimarySampleOwner& owner)

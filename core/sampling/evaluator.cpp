@@ -26,12 +26,18 @@ bool find_fault(const Rgb& value, Rejection& cause) {
 
 std::string_view to_string(Rejection cause) {
   switch (cause) {
-    case Rejection::nan: return "not a number";
-    case Rejection::infinite: return "infinite";
-    case Rejection::negative: return "negative";
-    case Rejection::too_large: return "too large";
-    case Rejection::threw: return "exception";
-    case Rejection::no_raster: return "camera value without raster position";
+    case Rejection::nan:
+      return "not a number";
+    case Rejection::infinite:
+      return "infinite";
+    case Rejection::negative:
+      return "negative";
+    case Rejection::too_large:
+      return "too large";
+    case Rejection::threw:
+      return "exception";
+    case Rejection::no_raster:
+      return "camera value without raster position";
   }
   return "";
 }

@@ -9,7 +9,7 @@
 namespace pssmlt {
 namespace {
 
-constexpr int tile_size = 32;                  // [pixels]
+constexpr int tile_size = 32;  // [pixels]
 constexpr int64_t pixels_a_round = 1 << 21;
 
 // Adds camera splats to plane 0 and light splats to plane 1; `light` is scratch.

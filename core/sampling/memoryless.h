@@ -19,8 +19,8 @@ struct SampleId {
 // stays short. All groups have equally many samples in every pixel after 32 sweeps.
 //
 // One plane suffices while all pixels have the same count: camera splats divide by their pixel's
-// count and light splats by the mean count. With subsets the counts differ within a sweep, and light
-// splats have a plane of their own (1).
+// count and light splats by the mean count. With subsets the counts differ within a sweep, and
+// light splats have a plane of their own (1).
 class MemorylessSampler : public Sampler {
  public:
   void start(const SamplerContext& context) override;

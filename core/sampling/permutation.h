@@ -5,8 +5,9 @@
 
 namespace pssmlt {
 
-// Where the permutation that `key` names takes i, 0 <= i < n (Kensler 2013, Correlated Multi-Jittered
-// Sampling, section 3): a keyed bijection of the next power of two, walked until it falls below n.
+// Where the permutation that `key` names takes i, 0 <= i < n (Kensler 2013, Correlated
+// Multi-Jittered Sampling, section 3): a keyed bijection of the next power of two, walked until it
+// falls below n.
 inline uint32_t permute(uint32_t i, uint32_t n, uint32_t key) {
   uint32_t mask = n - 1;
   for (uint32_t shift = 1; shift < 32; shift *= 2) mask |= mask >> shift;

@@ -111,9 +111,7 @@ class PrimarySample {
   // False if nobody asked for the raster position of this point: it has no pixel then.
   bool raster_known() const { return raster_known_; }
   // What a stream holds: the numbers read so far, and for chains those that its state kept.
-  const StreamNumbers& held(Stream stream) const {
-    return *streams_[static_cast<size_t>(stream)];
-  }
+  const StreamNumbers& held(Stream stream) const { return *streams_[static_cast<size_t>(stream)]; }
 
  private:
   friend class PrimarySampleOwner;

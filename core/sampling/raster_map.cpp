@@ -99,7 +99,8 @@ void RasterMap::accumulate() {
 RasterMap::Offset RasterMap::sample_offset(double x, double y) const {
   if (pixel_box_) return {dvec2(x, y) - 0.5, 1.f};
   const Inverted row = invert(marginal_cdf_.data(), y);
-  const Inverted column = invert(&conditional_cdf_[static_cast<size_t>(row.interval * (cells + 1))], x);
+  const Inverted column =
+      invert(&conditional_cdf_[static_cast<size_t>(row.interval * (cells + 1))], x);
   const dvec2 at(column.interval + column.fraction, row.interval + row.fraction);
   const float value = values_[static_cast<size_t>(row.interval * cells + column.interval)];
   const double weight = abs_integral_ / integral_;
@@ -118,7 +119,8 @@ RasterMap::CameraPoint RasterMap::camera_point(double x, double y) const {
 RasterMap::CameraPoint RasterMap::camera_point_in(int pixel, double x, double y) const {
   const int width = frame_.crop_size().x;
   const Offset offset = sample_offset(x, y);
-  const dvec2 center(frame_.crop_min.x + pixel % width + 0.5, frame_.crop_min.y + pixel / width + 0.5);
+  const dvec2 center(frame_.crop_min.x + pixel % width + 0.5,
+                     frame_.crop_min.y + pixel / width + 0.5);
   return {center + offset.offset, {pixel, offset.weight}};
 }
 
@@ -134,7 +136,8 @@ PixelCredit RasterMap::pick(const dvec2& raster, float u) const {
   const dvec2 outside = glm::max(dvec2(low) - raster, raster - dvec2(high));
   if (!(outside.x <= radius_.x && outside.y <= radius_.y)) return {};
   if (pixel_box_) {
-    const int x = static_cast<int>(std::floor(raster.x)), y = static_cast<int>(std::floor(raster.y));
+    const int x = static_cast<int>(std::floor(raster.x)),
+              y = static_cast<int>(std::floor(raster.y));
     if (x < low.x || y < low.y || x >= high.x || y >= high.y) return {};
     return {(y - low.y) * width + x - low.x, 1.f};
   }

@@ -12,13 +12,13 @@ namespace pssmlt {
 
 // Where a value is credited: weight * value goes to the pixel.
 struct PixelCredit {
-  int pixel = -1;       // row-major index in the rendered window; -1: outside
-  float weight = 0.f;   // may be negative (filters with negative lobes)
+  int pixel = -1;      // row-major index in the rendered window; -1: outside
+  float weight = 0.f;  // may be negative (filters with negative lobes)
 };
 
-// The filter is tabulated: constant on each of 64 x 64 cells of its support. Both kinds of splat use
-// the table, so that they converge to the same picture; a box is exact. Weights are exact: for camera
-// splats they are +-integral |f| / integral f without any variance of their own.
+// The filter is tabulated: constant on each of 64 x 64 cells of its support. Both kinds of splat
+// use the table, so that they converge to the same picture; a box is exact. Weights are exact: for
+// camera splats they are +-integral |f| / integral f without any variance of their own.
 class RasterMap {
  public:
   // Throws Error if the filter's integral is not positive or its radius not in (0, 64] pixels.
@@ -47,7 +47,7 @@ class RasterMap {
 
  private:
   struct Offset {
-    dvec2 offset{0.0};   // from the pixel's centre [pixels]
+    dvec2 offset{0.0};  // from the pixel's centre [pixels]
     float weight = 0.f;
   };
   void tabulate(const Filter& filter);
@@ -56,8 +56,8 @@ class RasterMap {
 
   RasterFrame frame_;
   dvec2 radius_{0.5};
-  bool pixel_box_ = false;      // constant over exactly one pixel: positions map as they are
-  std::vector<float> values_;   // of the cells, row by row
+  bool pixel_box_ = false;     // constant over exactly one pixel: positions map as they are
+  std::vector<float> values_;  // of the cells, row by row
   // Tabulated |f| for inversion: marginal over rows, then conditional over the cells of a row; each
   // starts with 0 and ends with 1.
   std::vector<double> marginal_cdf_, conditional_cdf_;

@@ -31,8 +31,8 @@ inline uint32_t reverse_bits(uint32_t x) {
 // themselves (highest digit in the lowest bit).
 NumberBlock sobol_reversed(uint32_t reversed_index);
 
-// Block `block` of point `index` of the sequence that `seed` scrambles. Sequences of different seeds
-// and blocks of one sequence are independent. Beyond 2^32 points a new scramble starts.
+// Block `block` of point `index` of the sequence that `seed` scrambles. Sequences of different
+// seeds and blocks of one sequence are independent. Beyond 2^32 points a new scramble starts.
 NumberBlock sobol_block(uint64_t seed, uint64_t index, uint32_t block);
 
 }  // namespace pssmlt
