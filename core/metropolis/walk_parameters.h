@@ -1,0 +1,21 @@
+// The parameters that samplers with Markov chains in primary sample space share.
+#pragma once
+
+#include "core/metropolis/kernels.h"
+#include "core/metropolis/steps.h"
+#include "core/scene/parameters.h"
+
+namespace pssmlt {
+
+struct KernelChoice {
+  KernelShape shape = KernelShape::kelemen;
+  double scale = 1.0 / 64;       // as Kernel takes it [torus]
+  double film_scale = 1.0 / 64;  // of the raster pair [side of a square picture of equal area]
+};
+
+// "largestepprobability", "filmprobability", "streamprobability", "rangeprobability".
+StepMix read_step_mix(Parameters& parameters);
+// "kernel", "sigma", "filmsigma".
+KernelChoice read_kernels(Parameters& parameters);
+
+}  // namespace pssmlt
