@@ -1,0 +1,61 @@
+// Triangle meshes: what all shapes that end as triangles share.
+#pragma once
+
+#include <mutex>
+
+#include "core/base/distribution.h"
+#include "core/scene/parameters.h"
+#include "core/shape.h"
+
+namespace pssmlt {
+
+// A mesh in its own space, as files and formulas give it. Normals of length 0 stand for "none here".
+struct MeshData {
+  TriangleMesh mesh;
+  std::vector<vec3> tangents;  // empty or one a vertex
+};
+
+class MeshShape : public Shape {
+ public:
+  // Takes `data` to render space by p's transform. Throws Error at p's place on indices out of
+  // range, per-vertex arrays of the wrong length and values that are not finite. Triangles without
+  // area are left out.
+  MeshShape(MeshData data, const Parameters& p);
+
+  const TriangleMesh* mesh() const final { return &mesh_; }
+  Bounds bounds() const final;
+  void fill(const vec2& where, Hit& hit) const final;
+  float area() const final { return static_cast<float>(areas().sum()); }
+  // Uniform over the surface: a triangle by its area, then a point in it.
+  SurfaceSample sample_area(const vec2& u) const final;
+
+ private:
+  struct Corners {
+    vec3 p0, p1, p2;
+  };
+  Corners corners(uint32_t triangle) const;
+  // Geometric normal, unit; on the side of the shading normal `ns` where that is not zero.
+  vec3 outside(const Corners& c, const vec3& ns) const;
+  // Interpolated vertex normal, not normalised; zero if there is none.
+  vec3 shading_normal(uint32_t triangle, const vec3& b) const;
+  vec2 interpolated_uv(uint32_t triangle, const vec3& b) const;
+  void set_derivatives(uint32_t triangle, const Corners& c, Hit& hit) const;
+  void set_tangent(uint32_t triangle, const vec3& b, Hit& hit) const;
+  void check(const MeshData& data, const Parameters& p) const;
+  void transform(const Parameters& p);
+  size_t drop_degenerate();
+  // Made when first asked for: only lights need it.
+  const Distribution1D& areas() const;
+
+  TriangleMesh mesh_;
+  std::vector<vec3> tangents_;
+  bool flip_ = false;  // the index order gives the inside
+  mutable std::once_flag areas_once_;
+  mutable Distribution1D areas_;
+};
+
+// Triangles of a list of indices, three each. Throws Error at the parameter `indices` if their
+// number is not a multiple of three or one of them is negative.
+std::vector<glm::uvec3> triangles_of(const std::vector<int>& indices, const Parameters& p);
+
+}  // namespace pssmlt
