@@ -256,7 +256,7 @@ void Bdpt::lens_from_light(const Subpath& light, PrimarySample& u, Splats& out) 
   const EndpointPoint& at = light.start.from;
   const auto lens = scene_->camera().toward(at.position, lens_connection_numbers(u, 0));
   if (!lens || !(lens->pdf_toward > 0.f)) return;
-  const EmissionValue e = light.light->evaluate(at, lens->wi);
+  const EmissionValue e = light.emitted(lens->wi);
   const float drawn = light.probability * light.start.pdf_position * lens->pdf_toward;
   const Rgb value = e.value * lens->value * (e.cosine / drawn);
   if (is_black(value)) return;

@@ -61,7 +61,7 @@ void LightTracer::add_light(const Subpath& path, PrimarySample& u, Splats& out) 
   const EndpointPoint& at = path.start.from;
   const auto lens = scene_->camera().toward(at.position, lens_connection_numbers(u, 0));
   if (!lens || !(lens->pdf_toward > 0.f)) return;
-  const EmissionValue e = path.light->evaluate(at, lens->wi);
+  const EmissionValue e = path.emitted(lens->wi);
   const Rgb value = e.value * lens->value * e.cosine /
                     (path.probability * path.start.pdf_position * lens->pdf_toward);
   if (is_black(value)) return;

@@ -50,6 +50,15 @@ class Subpath {
     return k == 0 ? start.from.position : (*this)[k].surface.hit.position;
   }
 
+  // Of light subpaths: radiance that leaves the start toward `direction` instead. evaluate() takes
+  // the surface for given, emit() weighted it by its opacity, which is the same in all directions.
+  EmissionValue emitted(const vec3& direction) const {
+    EmissionValue e = light->evaluate(start.from, direction);
+    const float opaque = luminance(light->evaluate(start.from, start.direction).value);
+    if (opaque > 0.f) e.value *= luminance(start.value) / opaque;
+    return e;
+  }
+
   void clear() {
     size_ = 0;
     started = false;
