@@ -1,0 +1,230 @@
+// pssmlt render: scene in, pictures out.
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "app/progress.h"
+#include "app/render_options.h"
+#include "app/summary.h"
+#include "core/base/log.h"
+#include "core/render/auxiliary.h"
+#include "core/render/output.h"
+#include "core/render/replay.h"
+#include "core/scene/parser.h"
+
+namespace pssmlt {
+namespace {
+
+constexpr int exit_done = 0, exit_failure = 1, exit_interrupted = 130;
+constexpr int traced_samples = 4;  // of --pixel, unless --spp says otherwise
+
+std::atomic<bool> stop_requested{false};
+
+// The first signal asks the session to stop after the round, the second ends the process.
+extern "C" void on_signal(int) {
+  if (stop_requested.exchange(true)) _exit(exit_interrupted);
+  static constexpr char text[] =
+      "\ninterrupted: finishing the round, then writing; again to leave at once without writing\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+}
+
+void catch_signals() {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool wants(const RenderOptions& o, const std::string& auxiliary) {
+  return std::find(o.auxiliary.begin(), o.auxiliary.end(), auxiliary) != o.auxiliary.end();
+}
+
+// Fills in what the scene says and finds out now what could not be written later.
+void prepare_outputs(RenderOptions& o, const BuiltScene& scene) {
+  if (o.outputs.empty()) o.outputs = {scene.output.empty() ? "pssmlt.exr" : scene.output};
+  for (const std::string& path : o.outputs) check_writable(path);
+  const auto& outputs = o.outputs;
+  if (!o.auxiliary.empty() && std::none_of(outputs.begin(), outputs.end(), holds_layers)) {
+    throw Error("--aux needs an EXR among the outputs: other formats hold no layers");
+  }
+  if (o.render.checkpoint.empty() && o.render.resume) {
+    o.render.checkpoint = o.outputs.front() + ".checkpoint";
+  }
+  for (const std::string& path : {o.render.checkpoint, o.json}) {
+    if (path.empty()) continue;
+    std::ofstream probe(path, std::ios::app);  // does not touch what is there
+    const bool fresh = probe && probe.tellp() == 0;
+    if (!probe) throw Error("cannot write \"" + path + "\"");
+    probe.close();
+    if (fresh) std::remove(path.c_str());
+  }
+}
+
+BuiltScene load(RenderOptions& o) {
+  std::vector<std::string> log;
+  const auto start = std::chrono::steady_clock::now();
+  const SceneDescription description = parse_file(o.scene, &log);
+  BuiltScene scene = build_scene(description, o.build);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  for (const std::string& line : log) log_info(line);
+  for (const std::string& line : scene.log) log_info(line);
+  for (const std::string& line : o.notes) log_info(line);
+  log_debug(fmt::format("scene loaded in {:.3f} s", spent.count()));
+  o.render.seed = o.seed.value_or(scene.seed.value_or(0));
+  return scene;
+}
+
+ImageMetadata metadata(const RenderOptions& o, const BuiltScene& scene, const RenderResult& r) {
+  std::string integrators, samplers;
+  for (const Layer& layer : scene.layers) {
+    integrators += (integrators.empty() ? "" : " + ") + layer.integrator_name;
+    samplers += (samplers.empty() ? "" : " + ") + layer.sampler_name;
+  }
+  const ErrorEstimate& e = r.error;
+  return {{"software", "pssmlt " PSSMLT_VERSION},
+          {"pssmlt:scene", o.scene},
+          {"pssmlt:scene_hash", fmt::format("{:016x}", scene.scene_hash)},
+          {"pssmlt:settings_hash", fmt::format("{:016x}", scene.settings_hash)},
+          {"pssmlt:integrator", integrators},
+          {"pssmlt:sampler", samplers},
+          {"pssmlt:seed", std::to_string(o.render.seed)},
+          {"pssmlt:samples", fmt::format("{:.0f}", r.samples)},
+          {"pssmlt:seconds", fmt::format("{:.3f}", r.seconds)},
+          {"pssmlt:error", e.known ? fmt::format("relMSE {:.6g} ({:.6g} to {:.6g})",
+                                                 e.relative_mse, e.low, e.high)
+                                   : "unknown"}};
+}
+
+// The images beside the picture that --aux asks for.
+struct Companions {
+  AuxiliaryImages first_hit;
+  Image error;
+};
+
+Companions make_companions(const RenderOptions& o, const BuiltScene& scene,
+                           const RenderResult& result) {
+  Companions c;
+  if (wants(o, "albedo") || wants(o, "normal") || wants(o, "depth")) {
+    c.first_hit = render_auxiliary(*scene.scene, *scene.raster_map, o.render.seed,
+                                   o.render.threads);
+  }
+  if (wants(o, "error") && !result.variance.data.empty()) c.error = error_image(result.variance);
+  return c;
+}
+
+Image with_companions(const RenderOptions& o, const RenderResult& result, const Companions& c) {
+  std::vector<std::pair<std::string, const Image*>> layers = {{"", &result.image}};
+  if (wants(o, "halves")) {
+    layers.emplace_back("half0", &result.half[0]);
+    layers.emplace_back("half1", &result.half[1]);
+  }
+  if (wants(o, "variance")) layers.emplace_back("variance", &result.variance);
+  if (wants(o, "albedo")) layers.emplace_back("albedo", &c.first_hit.albedo);
+  if (wants(o, "normal")) layers.emplace_back("normal", &c.first_hit.normal);
+  if (wants(o, "depth")) layers.emplace_back("depth", &c.first_hit.depth);
+  if (wants(o, "error")) layers.emplace_back("error", &c.error);
+  return join_layers(layers);
+}
+
+// False if a file could not be written where it was asked for.
+bool write_outputs(const RenderOptions& o, const BuiltScene& scene, const RenderResult& result,
+                   const Companions& companions) {
+  const ImageMetadata data = metadata(o, scene, result);
+  const DisplaySettings display{o.view};
+  bool fine = true;
+  for (const std::string& path : o.outputs) {
+    const bool layered = holds_layers(path) && !o.auxiliary.empty();
+    fine &= layered ? write_or_rescue(path, with_companions(o, result, companions), data, display)
+                    : write_or_rescue(path, result.image, data, display);
+    for (const SplitImage& split : result.splits) {
+      fine &= write_or_rescue(with_suffix(path, split.name), split.image, data, display);
+    }
+  }
+  if (!result.complete) return fine;
+  if (result.half[0].data.empty() && (wants(o, "halves") || wants(o, "variance") ||
+                                      wants(o, "error"))) {
+    log_warning("halves, variance and error are left out: they need two rounds at least");
+  }
+  return fine;
+}
+
+bool write_json(const std::string& path, const nlohmann::json& statistics) {
+  if (path.empty()) return true;
+  std::ofstream file(path);
+  file << statistics.dump(2) << "\n";
+  file.close();
+  if (!file) log_warning("cannot write \"" + path + "\"");
+  return static_cast<bool>(file);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Writes pictures and statistics and prints the summary; the exit code.
+int finish(const RenderOptions& o, const BuiltScene& scene, RenderResult& result) {
+  const bool interrupted = result.stop == StopReason::interrupted;
+  bool fine = true;
+  nlohmann::json& s = result.statistics;
+  if (result.complete) {
+    auto start = std::chrono::steady_clock::now();
+    const Companions companions = make_companions(o, scene, result);
+    if (!o.auxiliary.empty()) s["seconds"]["auxiliary"] = seconds_since(start);
+    start = std::chrono::steady_clock::now();
+    fine = write_outputs(o, scene, result, companions);
+    s["seconds"]["write"] = seconds_since(start);
+  } else {
+    log_warning("interrupted before a first round was complete: no picture is written");
+  }
+  s["version"] = PSSMLT_VERSION;
+  s["scene"] = o.scene;
+  s["outputs"] = o.outputs;
+  fine &= write_json(o.json, s);
+  log_info(summary_text(s));
+  if (result.complete) {
+    for (const std::string& path : o.outputs) log_info("wrote " + path);
+  }
+  return interrupted ? exit_interrupted : fine ? exit_done : exit_failure;
+}
+
+int inspect(const RenderOptions& o, const BuiltScene& scene) {
+  const auto print = [](const std::string& line) { std::puts(line.c_str()); };
+  if (!o.replay.empty()) {
+    replay_sample(scene, o.replay, o.render.seed, print);
+  } else {
+    const double wanted = o.render.spp.value_or(traced_samples);
+    trace_pixel(scene, *o.pixel, std::max(1, static_cast<int>(wanted)), o.render.seed, print);
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+int run_render(const Arguments& arguments) {
+  std::optional<RenderOptions> options = parse_render_options(arguments);
+  if (!options) return exit_done;
+  RenderOptions& o = *options;
+  set_log_level(o.quiet     ? LogLevel::quiet
+                : o.verbose ? LogLevel::verbose
+                            : LogLevel::normal);
+  const BuiltScene scene = load(o);
+  if (o.pixel || !o.replay.empty()) return inspect(o, scene);
+  prepare_outputs(o, scene);
+  catch_signals();
+  RenderResult result;
+  {
+    ProgressDisplay display(!o.quiet);
+    RenderCallbacks callbacks;
+    callbacks.stop = &stop_requested;
+    callbacks.progress = [&display](const Progress& p) { display.show(p); };
+    result = render(scene, o.render, callbacks);
+  }
+  return finish(o, scene, result);
+}
+
+}  // namespace pssmlt
