@@ -77,6 +77,7 @@ class RoughDielectricBsdf final : public Bsdf {
       f.eta = t->eta;
     }
     f.cos_i = glm::dot(s.wi, *m);
+    f.fresnel = reflected_fraction(f);
     if (!is_valid(f, wo, s.wi)) return std::nullopt;
     s.transmitted = !f.reflects;
     s.eta = f.eta;
@@ -117,8 +118,15 @@ class RoughDielectricBsdf final : public Bsdf {
     f.cos_o = glm::dot(wo, f.m);
     f.cos_i = glm::dot(wi, f.m);
     if (!is_valid(f, wo, wi)) return std::nullopt;
-    f.fresnel = fresnel_dielectric(f.cos_o, eta_);
+    f.fresnel = reflected_fraction(f);
     return f;
+  }
+  // Refraction: from the side of the lower index, where nothing cancels near the critical angle, and
+  // where both ways give the same number.
+  float reflected_fraction(const Facet& f) const {
+    if (f.reflects) return fresnel_dielectric(f.cos_o, eta_);
+    const float outside = std::max(f.cos_o, f.cos_i), inside = std::min(f.cos_o, f.cos_i);
+    return fresnel_dielectric(eta_ > 1.f ? outside : inside, eta_);
   }
   static Facet reversed(const Facet& f) {
     return {f.m, f.cos_i, f.cos_o, 1.f / f.eta, f.fresnel, f.reflects};

@@ -57,8 +57,9 @@ ocio::ConstConfigRcPtr own_config() {
   const ocio::ConfigRcPtr config = ocio::Config::Create();
   config->setVersion(2, 1);
   add_spaces(config);
-  // Roles may be asked for by name by whoever extends this.
+  // The library asks for roles by name; it refuses a configuration without a default.
   config->setRole(ocio::ROLE_SCENE_LINEAR, linear_name);
+  config->setRole(ocio::ROLE_DEFAULT, linear_name);
   config->setRole(ocio::ROLE_INTERCHANGE_SCENE, "ACES2065-1");
   add_view(config, "sRGB", "UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD");
   add_view(config, "ACES 1.0 SDR", "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0");
