@@ -1,6 +1,7 @@
 // What an integrator returns for one point u: splats, i.e. raster positions with values.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Splat {
   Rgb value{0.f};     // [W/(m^2 sr)]
   PathTag tag;
   bool from_camera = true;
+  std::array<uint8_t, 7> unused{};  // stored chains have no undefined bytes
 };
 
 class Splats {
@@ -40,15 +42,15 @@ class Splats {
         splats_.front().value += value;
         return;
       }
-      splats_.insert(splats_.begin(), Splat{dvec2(0.0), value, tag, true});
+      splats_.insert(splats_.begin(), Splat{dvec2(0.0), value, tag, true, {}});
       return;
     }
-    splats_.push_back({dvec2(0.0), value, tag, true});
+    splats_.push_back({dvec2(0.0), value, tag, true, {}});
   }
   // Value that lands at a raster position of its own [pixels].
   void light(const dvec2& raster, const Rgb& value, PathTag tag) {
     if (is_black(value)) return;
-    splats_.push_back({raster, value, tag, false});
+    splats_.push_back({raster, value, tag, false, {}});
   }
 
   const std::vector<Splat>& all() const { return splats_; }

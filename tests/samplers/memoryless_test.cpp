@@ -182,14 +182,17 @@ std::vector<NumberBlock> numbers_of(const std::string& name, const ParameterSet&
                                     Stream stream, int count) {
   std::vector<NumberBlock> result;
   const RasterMap map = test::box_map(8, 4);
-  ToyRender render(name, set, [&](PrimarySample& u, Splats&) {
-    (void)u.raster();
-    const NumberBlock before = *u.held(Stream::camera).find(0);
-    (void)before;
-    (void)u.numbers(stream, 1);
-    const int at = static_cast<int>(u.raster().y) * 8 + static_cast<int>(u.raster().x);
-    if (pixel < 0 || at == pixel) result.push_back(*u.held(stream).find(blocks_per_vertex));
-  }, map, 9);
+  ToyRender render(
+      name, set,
+      [&](PrimarySample& u, Splats&) {
+        (void)u.raster();
+        const NumberBlock before = *u.held(Stream::camera).find(0);
+        (void)before;
+        (void)u.numbers(stream, 1);
+        const int at = static_cast<int>(u.raster().y) * 8 + static_cast<int>(u.raster().x);
+        if (pixel < 0 || at == pixel) result.push_back(*u.held(stream).find(blocks_per_vertex));
+      },
+      map, 9);
   render.rounds(count);
   return result;
 }

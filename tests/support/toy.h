@@ -62,7 +62,8 @@ class ToyIntegrator final : public Integrator {
 class ToyFilm final : public SplatSink {
  public:
   ToyFilm(const RasterMap& map, int planes)
-      : map_(map), pixels_(static_cast<size_t>(map.frame().pixels())),
+      : map_(map),
+        pixels_(static_cast<size_t>(map.frame().pixels())),
         sums_(static_cast<size_t>(planes) * pixels_ * group_count) {}
   void add(int plane, const Splats& splats, const PixelCredit& camera, double weight,
            int group) override {
@@ -99,8 +100,11 @@ class ToyRender {
  public:
   ToyRender(const std::string& sampler, const ParameterSet& set, ToyIntegrator::Function function,
             const RasterMap& map, uint64_t seed, bool fixed = true)
-      : integrator_(std::move(function), fixed), evaluator_(integrator_, log_), owner_(map),
-        worker_{owner_, splats_, workspace_, evaluator_}, sampler_(make(sampler, set)) {
+      : integrator_(std::move(function), fixed),
+        evaluator_(integrator_, log_),
+        owner_(map),
+        worker_{owner_, splats_, workspace_, evaluator_},
+        sampler_(make(sampler, set)) {
     sampler_->start({scene_, integrator_, map, seed,
                      [this](int count, const std::function<void(int, Worker&)>& body) {
                        for (int unit = 0; unit < count; ++unit) body(unit, worker_);

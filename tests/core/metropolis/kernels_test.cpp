@@ -10,12 +10,9 @@
 namespace pssmlt {
 namespace {
 
-const std::vector<Kernel> kernels = {{KernelShape::kelemen, 1.0 / 64},
-                                     {KernelShape::kelemen, 1.0},
-                                     {KernelShape::gaussian, 0.01},
-                                     {KernelShape::gaussian, 1.0},
-                                     {KernelShape::cauchy, 0.01},
-                                     {KernelShape::cauchy, 1.0}};
+const std::vector<Kernel> kernels = {{KernelShape::kelemen, 1.0 / 64}, {KernelShape::kelemen, 1.0},
+                                     {KernelShape::gaussian, 0.01},    {KernelShape::gaussian, 1.0},
+                                     {KernelShape::cauchy, 0.01},      {KernelShape::cauchy, 1.0}};
 
 // The sign bit turns a step into its reverse, from everywhere: for each way from x to y there is
 // exactly one equally probable way back, and for fixed bits the map is a shift of the torus, which

@@ -91,7 +91,8 @@ constexpr unsigned used_streams = 0b111;
 class Machine {
  public:
   explicit Machine(const Case& example, uint64_t seed = 7)
-      : chooser_(example.mix, used_streams, true), owner_(map_),
+      : chooser_(example.mix, used_streams, true),
+        owner_(map_),
         walker_(settings_, chooser_, owner_) {
     settings_.seed = seed;
     settings_.kernel = settings_.film_x = settings_.film_y = Kernel(example.shape, example.scale);
@@ -264,7 +265,8 @@ TEST(Advance, LargeStepsMeasureB) {
   for (uint32_t c = 0; c < 2000; ++c) {
     Ledger ledger(machine.start(c));
     uint32_t stuck = 0;
-    advance(machine.walker(), machine.owner(), ledger, CreditRule::expected(1.0), 100, stuck, tally);
+    advance(machine.walker(), machine.owner(), ledger, CreditRule::expected(1.0), 100, stuck,
+            tally);
   }
   const MeanTally& b = tally.large_values;
   EXPECT_EQ(b.count, tally.kinds[static_cast<size_t>(StepKind::large)].proposed);

@@ -100,8 +100,8 @@ TEST(RasterMap, PickGivesEveryPixelItsShare) {
   constexpr int grid = 400;
   for (int j = 0; j < grid; ++j) {
     for (int i = 0; i < grid; ++i) {
-      norm += filter.evaluate({(2.f * (i + 0.5f) / grid - 1.f) * 2.f,
-                               (2.f * (j + 0.5f) / grid - 1.f) * 1.5f});
+      norm += filter.evaluate(
+          {(2.f * (i + 0.5f) / grid - 1.f) * 2.f, (2.f * (j + 0.5f) / grid - 1.f) * 1.5f});
     }
   }
   norm *= 4.0 * 3.0 / (grid * grid);

@@ -15,8 +15,8 @@ namespace {
 // Cell of a number when [0,1) is cut into 2^bits cells.
 uint32_t cell(uint32_t x, int bits) { return bits == 0 ? 0 : x >> (32 - bits); }
 
-// The first 2^k points put one point into every elementary interval of the first two dimensions, and
-// so does every aligned block of 2^k points.
+// The first 2^k points put one point into every elementary interval of the first two dimensions,
+// and so does every aligned block of 2^k points.
 TEST(Sobol, FillsElementaryIntervals) {
   constexpr int k = 8;
   for (uint64_t seed = 0; seed < 20; ++seed) {
@@ -96,7 +96,8 @@ TEST(Sobol, ConvergesFasterThanIndependentPoints) {
         for (size_t d = 0; d < 4; ++d) product *= 0.5 + to_unit_double(x[d]);
         mean += product;
       }
-      sum += (mean / static_cast<double>(points) - 1.0) * (mean / static_cast<double>(points) - 1.0);
+      sum +=
+          (mean / static_cast<double>(points) - 1.0) * (mean / static_cast<double>(points) - 1.0);
     }
     return sum / seeds;
   };
