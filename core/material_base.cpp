@@ -10,8 +10,8 @@ class InvalidBsdf final : public Bsdf {
   Rgb eval(const vec3&, const vec3&, Transport) const override { return Rgb(nan); }
   float pdf(const vec3&, const vec3&) const override { return inv_pi; }
   std::optional<BsdfSample> sample(const vec3& wo, float, const vec2&, Transport) const override {
-    return BsdfSample{.wi = {-wo.x, -wo.y, wo.z}, .weight = Rgb(nan), .pdf = inv_pi,
-                      .pdf_reverse = inv_pi};
+    return BsdfSample{
+        .wi = {-wo.x, -wo.y, wo.z}, .weight = Rgb(nan), .pdf = inv_pi, .pdf_reverse = inv_pi};
   }
   bool connectible() const override { return true; }
   Rgb albedo(const vec3&) const override { return Rgb(nan); }
@@ -34,11 +34,12 @@ RoughnessTextures::RoughnessTextures(Parameters& p) {
   remap_ = p.flag("remaproughness", true, "the width of the lobe is the root of the roughness");
   if (!u_) u_ = both;
   if (!v_) v_ = both;
-  is_constant_ = u_->constant() && v_->constant();
-  if (!is_constant_) return;
-  if (u_->evaluate(Hit()) < 0.f || v_->evaluate(Hit()) < 0.f) p.fail("roughness must not be negative");
-  const vec2 a = alpha(Hit());
-  is_smooth_ = Ggx(a.x, a.y).is_smooth();
+  if (!u_->constant() || !v_->constant()) return;
+  if (u_->evaluate(Hit()) < 0.f || v_->evaluate(Hit()) < 0.f)
+    p.fail("roughness must not be negative");
+  constant_ = alpha(Hit());
+  is_smooth_ = Ggx(constant_.x, constant_.y).is_smooth();
+  is_constant_ = true;
 }
 
 float RoughnessTextures::width(float roughness) const {
@@ -47,6 +48,7 @@ float RoughnessTextures::width(float roughness) const {
 }
 
 vec2 RoughnessTextures::alpha(const Hit& hit) const {
+  if (is_constant_) return constant_;
   return {width(u_->evaluate(hit)), width(v_->evaluate(hit))};
 }
 

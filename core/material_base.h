@@ -35,7 +35,8 @@ class RoughnessTextures {
   float width(float roughness) const;
   std::shared_ptr<const Texture<float>> u_, v_;
   bool remap_ = true;
-  bool is_constant_ = true, is_smooth_ = true;
+  bool is_constant_ = false, is_smooth_ = true;
+  vec2 constant_{0.f};  // alpha() if it is
 };
 
 // A Bsdf whose every value is NaN, for points where a texture failed: the sample that meets it is

@@ -46,9 +46,12 @@ vec2 TextureMapping2D::map_point(const vec3& p) const {
       return {std::acos(std::clamp(cosine, -1.f, 1.f)) * inv_pi,
               (phi < 0.f ? phi + 2.f * pi : phi) * (0.5f * inv_pi)};
     }
-    case Kind::cylindrical: return {(pi + std::atan2(p.y, p.x)) * (0.5f * inv_pi), p.z};
-    case Kind::planar: return delta_ + vec2(glm::dot(p, v1_), glm::dot(p, v2_));
-    case Kind::uv: break;
+    case Kind::cylindrical:
+      return {(pi + std::atan2(p.y, p.x)) * (0.5f * inv_pi), p.z};
+    case Kind::planar:
+      return delta_ + vec2(glm::dot(p, v1_), glm::dot(p, v2_));
+    case Kind::uv:
+      break;
   }
   return vec2(0.f);
 }

@@ -12,7 +12,8 @@
 namespace pssmlt {
 namespace {
 
-// Fresnel reflectance: the material's table or, where a texture decides, eta = 1 and this point's k.
+// Fresnel reflectance: the material's table or, where a texture decides, eta = 1 and this point's
+// k.
 struct Reflectance {
   const FresnelCurve* curve = nullptr;
   Rgb k{0.f};
@@ -28,8 +29,11 @@ class MirrorBsdf final : public Bsdf {
   float pdf(const vec3&, const vec3&) const override { return 0.f; }
   std::optional<BsdfSample> sample(const vec3& wo, float, const vec2&, Transport) const override {
     if (wo.z == 0.f) return std::nullopt;
-    return BsdfSample{.wi = {-wo.x, -wo.y, wo.z}, .weight = fresnel_(wo.z), .pdf = 1.f,
-                      .pdf_reverse = 1.f, .delta = true};
+    return BsdfSample{.wi = {-wo.x, -wo.y, wo.z},
+                      .weight = fresnel_(wo.z),
+                      .pdf = 1.f,
+                      .pdf_reverse = 1.f,
+                      .delta = true};
   }
   bool connectible() const override { return false; }
   Rgb albedo(const vec3& wo) const override { return fresnel_(wo.z); }
@@ -137,9 +141,8 @@ class Conductor final : public BumpedMaterial {
     if (p.has("reflectance") && has_index)
       p.fail("reflectance", "\"reflectance\" excludes \"eta\" and \"k\"");
     const bool given = p.has("reflectance");
-    const auto reflectance =
-        p.rgb_texture("reflectance", Rgb(0.f), SpectrumUse::Albedo, "",
-                      "reflectance at normal incidence, instead of eta and k");
+    const auto reflectance = p.rgb_texture("reflectance", Rgb(0.f), SpectrumUse::Albedo, "",
+                                           "reflectance at normal incidence, instead of eta and k");
     if (!given) return read_index(p);
     if (!reflectance->constant()) reflectance_ = reflectance;
     const Rgb value = reflectance_ ? Rgb(0.f) : clamp_reflectance(reflectance->evaluate(Hit()));

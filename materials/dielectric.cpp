@@ -26,13 +26,20 @@ class SmoothDielectricBsdf final : public Bsdf {
     if (wo.z == 0.f) return std::nullopt;
     const float r = fresnel_dielectric(wo.z, eta_);
     if (u_lobe < r)
-      return BsdfSample{.wi = {-wo.x, -wo.y, wo.z}, .weight = Rgb(1.f), .pdf = r,
-                        .pdf_reverse = r, .delta = true};
+      return BsdfSample{.wi = {-wo.x, -wo.y, wo.z},
+                        .weight = Rgb(1.f),
+                        .pdf = r,
+                        .pdf_reverse = r,
+                        .delta = true};
     const std::optional<Refraction> t = refract(wo, vec3(0.f, 0.f, 1.f), eta_);
     if (!t || !(wo.z * t->direction.z < 0.f)) return std::nullopt;
-    return BsdfSample{.wi = t->direction, .weight = Rgb(radiance_scale(t->eta, mode)),
-                      .pdf = 1.f - r, .pdf_reverse = 1.f - r, .delta = true,
-                      .transmitted = true, .eta = t->eta};
+    return BsdfSample{.wi = t->direction,
+                      .weight = Rgb(radiance_scale(t->eta, mode)),
+                      .pdf = 1.f - r,
+                      .pdf_reverse = 1.f - r,
+                      .delta = true,
+                      .transmitted = true,
+                      .eta = t->eta};
   }
   bool connectible() const override { return false; }
   Rgb albedo(const vec3&) const override { return Rgb(1.f); }
@@ -94,10 +101,10 @@ class RoughDielectricBsdf final : public Bsdf {
  private:
   // The one microfacet that connects two directions.
   struct Facet {
-    vec3 m{0.f};                      // unit, z > 0
-    float cos_o = 0.f, cos_i = 0.f;   // signed, to m
-    float eta = 1.f;                  // index on wi's side over that on wo's
-    float fresnel = 0.f;              // fraction that is reflected
+    vec3 m{0.f};                     // unit, z > 0
+    float cos_o = 0.f, cos_i = 0.f;  // signed, to m
+    float eta = 1.f;                 // index on wi's side over that on wo's
+    float fresnel = 0.f;             // fraction that is reflected
     bool reflects = true;
   };
 
@@ -121,8 +128,8 @@ class RoughDielectricBsdf final : public Bsdf {
     f.fresnel = reflected_fraction(f);
     return f;
   }
-  // Refraction: from the side of the lower index, where nothing cancels near the critical angle, and
-  // where both ways give the same number.
+  // Refraction: from the side of the lower index, where nothing cancels near the critical angle,
+  // and where both ways give the same number.
   float reflected_fraction(const Facet& f) const {
     if (f.reflects) return fresnel_dielectric(f.cos_o, eta_);
     const float outside = std::max(f.cos_o, f.cos_i), inside = std::min(f.cos_o, f.cos_i);
@@ -163,7 +170,8 @@ class Dielectric final : public BumpedMaterial {
   MaterialTraits traits() const override {
     const bool matched = eta_ == 1.f;
     return {.diffuse_lobes = !matched && roughness_.may_be_rough(),
-            .delta_lobes = matched || roughness_.may_be_smooth(), .transmits = true};
+            .delta_lobes = matched || roughness_.may_be_smooth(),
+            .transmits = true};
   }
 
  private:

@@ -20,10 +20,17 @@ class ThinDielectricBsdf final : public Bsdf {
     if (wo.z == 0.f) return std::nullopt;
     const float r = reflectance(wo);
     if (u_lobe < r)
-      return BsdfSample{.wi = {-wo.x, -wo.y, wo.z}, .weight = Rgb(1.f), .pdf = r,
-                        .pdf_reverse = r, .delta = true};
-    return BsdfSample{.wi = -wo, .weight = Rgb(1.f), .pdf = 1.f - r, .pdf_reverse = 1.f - r,
-                      .delta = true, .transmitted = true};
+      return BsdfSample{.wi = {-wo.x, -wo.y, wo.z},
+                        .weight = Rgb(1.f),
+                        .pdf = r,
+                        .pdf_reverse = r,
+                        .delta = true};
+    return BsdfSample{.wi = -wo,
+                      .weight = Rgb(1.f),
+                      .pdf = 1.f - r,
+                      .pdf_reverse = 1.f - r,
+                      .delta = true,
+                      .transmitted = true};
   }
   bool connectible() const override { return false; }
   Rgb albedo(const vec3&) const override { return Rgb(1.f); }

@@ -79,13 +79,14 @@ ocio::ConstConfigRcPtr load_config() {
 
 // The configuration's space of linear Rec.709 by the names that are in use for it.
 std::string linear_rec709(const ocio::ConstConfigRcPtr& config) {
-  for (const char* name : {linear_name, "lin_rec709", "lin_rec709_srgb", "lin_srgb",
-                           "Utility - Linear - sRGB", "Utility - Linear - Rec.709",
-                           "Linear Rec.709", "Linear BT.709"}) {
+  for (const char* name :
+       {linear_name, "lin_rec709", "lin_rec709_srgb", "lin_srgb", "Utility - Linear - sRGB",
+        "Utility - Linear - Rec.709", "Linear Rec.709", "Linear BT.709"}) {
     if (config->getColorSpace(name)) return name;
   }
-  log_warning("the OpenColorIO configuration has no linear Rec.709 that is known by name; its "
-              "role scene_linear is used");
+  log_warning(
+      "the OpenColorIO configuration has no linear Rec.709 that is known by name; its "
+      "role scene_linear is used");
   return ocio::ROLE_SCENE_LINEAR;
 }
 

@@ -1,6 +1,6 @@
-// An image, with pbrt-v4's parameters. The pixels are held in memory, as 8-bit values where the file
-// has them, and shared by all textures of the same file. The filters trilinear and ewa follow the
-// size of a pixel at the point's distance to the camera; point and bilinear use the full image.
+// An image, with pbrt-v4's parameters. The pixels are held in memory, as 8-bit values where the
+// file has them, and shared by all textures of the same file. The filters trilinear and ewa follow
+// the size of a pixel at the point's distance to the camera; point and bilinear use the full image.
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -46,9 +46,10 @@ class ImageMap final : public Texture<T> {
 
   explicit ImageMap(Parameters& p)
       : mapping_(p),
-        filter_(static_cast<TextureFilter>(index_of(
-            filter_names, p.choice("filter", "bilinear", filter_names,
-                                   "how pixels are averaged; point and bilinear ignore distance")))),
+        filter_(static_cast<TextureFilter>(
+            index_of(filter_names,
+                     p.choice("filter", "bilinear", filter_names,
+                              "how pixels are averaged; point and bilinear ignore distance")))),
         wrap_(static_cast<TextureWrap>(
             index_of(wrap_names, p.choice("wrap", "repeat", wrap_names, "what lies outside")))),
         scale_(p.number("scale", 1.f, "", "factor")),

@@ -25,8 +25,10 @@ float Encoding::to_linear(float stored) const {
   switch (kind_) {
     case Kind::srgb:
       return stored <= 0.04045f ? stored / 12.92f : std::pow((stored + 0.055f) / 1.055f, 2.4f);
-    case Kind::gamma: return std::pow(stored, gamma_);
-    case Kind::linear: break;
+    case Kind::gamma:
+      return std::pow(stored, gamma_);
+    case Kind::linear:
+      break;
   }
   return stored;
 }
@@ -35,8 +37,10 @@ float Encoding::from_linear(float value) const {
   switch (kind_) {
     case Kind::srgb:
       return value <= 0.0031308f ? value * 12.92f : 1.055f * std::pow(value, 1.f / 2.4f) - 0.055f;
-    case Kind::gamma: return std::pow(value, 1.f / gamma_);
-    case Kind::linear: break;
+    case Kind::gamma:
+      return std::pow(value, 1.f / gamma_);
+    case Kind::linear:
+      break;
   }
   return value;
 }

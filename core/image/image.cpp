@@ -86,8 +86,8 @@ ByteImage to_display(const Image& image, const DisplaySettings& display) {
   std::vector<float> rgb(3 * count);
   for (size_t i = 0; i < count; ++i) {
     for (size_t c = 0; c < 3; ++c) {
-      const float v = image.data[i * static_cast<size_t>(image.channels) +
-                                 static_cast<size_t>(from[c])];
+      const float v =
+          image.data[i * static_cast<size_t>(image.channels) + static_cast<size_t>(from[c])];
       // Above what a half float holds, transforms of displays are not defined.
       rgb[3 * i + c] = std::isnan(v) ? 0.f : std::clamp(v, -65504.f, 65504.f);
     }
@@ -123,8 +123,8 @@ Image read_image(const std::string& path, const std::string& encoding) {
   const int alpha = file.find("A");
   const auto channels = static_cast<size_t>(file.channels);
   for (size_t i = 0; i < image.data.size(); ++i) {
-    const float stored = file.bytes.empty() ? file.floats[i]
-                                            : static_cast<float>(file.bytes[i]) / 255.f;
+    const float stored =
+        file.bytes.empty() ? file.floats[i] : static_cast<float>(file.bytes[i]) / 255.f;
     const bool is_alpha = static_cast<int>(i % channels) == alpha;
     image.data[i] = is_alpha || from.is_linear() ? stored : from.to_linear(stored);
   }

@@ -18,7 +18,9 @@ struct Image {
   std::vector<float> data;
   Image() = default;
   Image(int w, int h, int c)
-      : width(w), height(h), channels(c),
+      : width(w),
+        height(h),
+        channels(c),
         data(static_cast<size_t>(w) * static_cast<size_t>(h) * static_cast<size_t>(c)) {}
   float* pixel(int x, int y) { return &data[(static_cast<size_t>(y) * width + x) * channels]; }
   const float* pixel(int x, int y) const {

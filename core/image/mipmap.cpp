@@ -31,8 +31,7 @@ std::vector<int> colour_channels(const ImageFile& file) {
   std::vector<int> others;
   for (int c = 0; c < file.channels; ++c)
     if (c != alpha) others.push_back(c);
-  if (others.size() == 2)
-    throw Error("an image of two colour channels can't be a texture");
+  if (others.size() == 2) throw Error("an image of two colour channels can't be a texture");
   if (others.size() > 3) others.resize(3);
   if (others.empty()) others.push_back(alpha);
   return others;
@@ -93,7 +92,8 @@ void Mipmap<T>::load_mean(const ImageFile& file, const Encoding& encoding) {
   level.floats.resize(count);
   for (size_t i = 0; i < count; ++i) {
     float sum = 0.f;
-    for (const int c : from) sum += decoded_value(file, i * step + static_cast<size_t>(c), encoding);
+    for (const int c : from)
+      sum += decoded_value(file, i * step + static_cast<size_t>(c), encoding);
     level.floats[i] = sum / static_cast<float>(from.size());
   }
   channels_ = 1;
@@ -113,16 +113,22 @@ typename Mipmap<T>::Level Mipmap<T>::half(const Level& level, const Encoding& en
   Level result{(level.width + 1) / 2, (level.height + 1) / 2, {}, {}};
   const auto channels = static_cast<size_t>(channels_);
   const auto value = [&](int x, int y, size_t c) {
-    const size_t at = (static_cast<size_t>(y) * static_cast<size_t>(level.width) +
-                       static_cast<size_t>(x)) * channels + c;
+    const size_t at =
+        (static_cast<size_t>(y) * static_cast<size_t>(level.width) + static_cast<size_t>(x)) *
+            channels +
+        c;
     return level.bytes.empty() ? level.floats[at] : decoded_[level.bytes[at]];
   };
   // Overlap of each source texel with a target texel, along one axis.
-  struct Span { int first, last; float from, to; };
+  struct Span {
+    int first, last;
+    float from, to;
+  };
   const auto span = [](int i, int size, int source) {
     const float ratio = static_cast<float>(source) / static_cast<float>(size);
     const float from = static_cast<float>(i) * ratio, to = static_cast<float>(i + 1) * ratio;
-    return Span{static_cast<int>(from), std::min(static_cast<int>(std::ceil(to)), source), from, to};
+    return Span{static_cast<int>(from), std::min(static_cast<int>(std::ceil(to)), source), from,
+                to};
   };
   const auto overlap = [](const Span& s, int i) {
     const auto low = static_cast<float>(i);
@@ -154,7 +160,8 @@ typename Mipmap<T>::Level Mipmap<T>::half(const Level& level, const Encoding& en
 template <typename T>
 size_t Mipmap<T>::bytes() const {
   size_t sum = 0;
-  for (const Level& level : levels_) sum += level.bytes.size() + level.floats.size() * sizeof(float);
+  for (const Level& level : levels_)
+    sum += level.bytes.size() + level.floats.size() * sizeof(float);
   return sum;
 }
 
@@ -180,8 +187,8 @@ typename Mipmap<T>::Axis Mipmap<T>::axis(float s, int size, TextureWrap wrap) {
 template <typename T>
 T Mipmap<T>::texel(const Level& level, int x, int y) const {
   if ((x | y) < 0) return T(0.f);
-  const size_t at = static_cast<size_t>(y) * static_cast<size_t>(level.width) +
-                    static_cast<size_t>(x);
+  const size_t at =
+      static_cast<size_t>(y) * static_cast<size_t>(level.width) + static_cast<size_t>(x);
   const auto value = [&](size_t i) {
     return level.bytes.empty() ? level.floats[i] : decoded_[level.bytes[i]];
   };
@@ -206,10 +213,10 @@ T Mipmap<T>::bilinear(size_t index, const vec2& st, TextureWrap wrap) const {
   if (!std::isfinite(st.x) || !std::isfinite(st.y)) return T(nan);
   const Level& level = levels_[index];
   const Axis x = axis(st.x, level.width, wrap), y = axis(st.y, level.height, wrap);
-  const T upper = texel(level, x.low, y.low) * (1.f - x.fraction) +
-                  texel(level, x.high, y.low) * x.fraction;
-  const T lower = texel(level, x.low, y.high) * (1.f - x.fraction) +
-                  texel(level, x.high, y.high) * x.fraction;
+  const T upper =
+      texel(level, x.low, y.low) * (1.f - x.fraction) + texel(level, x.high, y.low) * x.fraction;
+  const T lower =
+      texel(level, x.low, y.high) * (1.f - x.fraction) + texel(level, x.high, y.high) * x.fraction;
   return upper * (1.f - y.fraction) + lower * y.fraction;
 }
 

@@ -1,4 +1,5 @@
-// An image as a texture: filtered lookups in its pixels and, for wide footprints, in smaller copies.
+// An image as a texture: filtered lookups in its pixels and, for wide footprints, in smaller
+// copies.
 #pragma once
 
 #include <array>

@@ -44,9 +44,8 @@ TEST(Ggx, VisibleNormalsAreNormalised) {
     const Ggx ggx(a.x, a.y);
     for (const vec3& w : {vec3(0.f, 0.f, 1.f), glm::normalize(vec3(1.f, 0.5f, 0.6f)),
                           glm::normalize(vec3(-1.f, 0.2f, 0.1f))}) {
-      const double sum = over_normals([&](const vec3& m) {
-        return glm::dot(w, m) > 0.f ? double(ggx.pdf_visible(w, m)) : 0.;
-      });
+      const double sum = over_normals(
+          [&](const vec3& m) { return glm::dot(w, m) > 0.f ? double(ggx.pdf_visible(w, m)) : 0.; });
       EXPECT_NEAR(sum, 1., 3e-3) << a.x << " " << a.y << " " << w.z;
     }
   }
@@ -58,8 +57,8 @@ TEST(Ggx, SampledNormalsFollowTheDensity) {
   RandomStream random(7, RandomUse::test);
   for (const Widths& a : all_widths) {
     const Ggx ggx(a.x, a.y);
-    for (const vec3& w : {glm::normalize(vec3(1.f, 0.5f, 0.6f)),
-                          glm::normalize(vec3(0.3f, -0.5f, -0.2f))}) {
+    for (const vec3& w :
+         {glm::normalize(vec3(1.f, 0.5f, 0.6f)), glm::normalize(vec3(0.3f, -0.5f, -0.2f))}) {
       const vec3 up = w.z < 0.f ? -w : w;
       for (int c = 0; c < 3; ++c) {
         const double exact = over_normals([&](const vec3& m) {

@@ -1,5 +1,5 @@
-// Every Bsdf: what sample() says agrees with eval() and pdf(), directions follow pdf(), and the laws
-// of reciprocity and energy hold.
+// Every Bsdf: what sample() says agrees with eval() and pdf(), directions follow pdf(), and the
+// laws of reciprocity and energy hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,8 +49,8 @@ vec3 direction(float degrees, float azimuth) {
 
 // Above, below, steep, grazing.
 std::vector<vec3> views() {
-  return {direction(0.5f, 0.f), direction(30.f, 1.f), direction(60.f, 2.f), direction(80.f, 4.f),
-          direction(120.f, 1.f), direction(150.f, 5.f)};
+  return {direction(0.5f, 0.f), direction(30.f, 1.f),  direction(60.f, 2.f),
+          direction(80.f, 4.f), direction(120.f, 1.f), direction(150.f, 5.f)};
 }
 
 class BsdfTest : public testing::TestWithParam<Case> {
@@ -104,12 +104,13 @@ double integrate(const std::function<double(const vec3&)>& g, double t0, double 
                  double p1, int steps) {
   double sum = 0.;
   for (int i = 0; i < steps; ++i) {
-    const double node = i / 2 * 2 + (i % 2 == 0 ? 1. - std::sqrt(1. / 3.) : 1. + std::sqrt(1. / 3.));
+    const double node =
+        i / 2 * 2 + (i % 2 == 0 ? 1. - std::sqrt(1. / 3.) : 1. + std::sqrt(1. / 3.));
     const double t = t0 + (t1 - t0) * node / steps;
     for (int j = 0; j < steps; ++j) {
       const double p = p0 + (p1 - p0) * (j + 0.5) / steps;
-      sum += std::sin(t) * g(vec3(dvec3(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p),
-                                        std::cos(t))));
+      sum += std::sin(t) *
+             g(vec3(dvec3(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t))));
     }
   }
   return sum * (t1 - t0) * (p1 - p0) / (double(steps) * steps);
@@ -124,7 +125,8 @@ double chi_square_deviate(double statistic, double degrees) {
 // Directions against pdf(), failed samples included as a bin of their own.
 TEST_P(BsdfTest, DirectionsFollowPdf) {
   constexpr int rows = 20, columns = 20, samples = 40000, steps = 24;
-  constexpr double row_height = std::numbers::pi / rows, column_width = 2. * std::numbers::pi / columns;
+  constexpr double row_height = std::numbers::pi / rows,
+                   column_width = 2. * std::numbers::pi / columns;
   for (const vec3& wo : views()) {
     std::vector<double> observed(rows * columns + 1), expected(rows * columns + 1);
     for (int i = 0; i < samples; ++i) {
@@ -143,9 +145,9 @@ TEST_P(BsdfTest, DirectionsFollowPdf) {
     double total = 0.;
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < columns; ++c) {
-        const double e = integrate([&](const vec3& wi) { return double(bsdf_->pdf(wo, wi)); },
-                                   r * row_height, (r + 1) * row_height, c * column_width,
-                                   (c + 1) * column_width, steps);
+        const double e =
+            integrate([&](const vec3& wi) { return double(bsdf_->pdf(wo, wi)); }, r * row_height,
+                      (r + 1) * row_height, c * column_width, (c + 1) * column_width, steps);
         expected[static_cast<size_t>(r * columns + c)] = e * samples;
         total += e;
       }
@@ -226,7 +228,8 @@ TEST(Bsdf, StaysFiniteAtTheEdges) {
     for (const float width : {0.f, 1.1e-3f, 1.f}) {
       ParameterSet set;
       if (type != std::string("diffuse") && type != std::string("thindielectric"))
-        set = {number("uroughness", width), number("vroughness", 0.f), flag("remaproughness", false)};
+        set = {number("uroughness", width), number("vroughness", 0.f),
+               flag("remaproughness", false)};
       const auto material = make_material(type, set);
       BsdfStorage storage;
       const Bsdf* const bsdf = material->bsdf(Hit(), {}, storage);

@@ -58,8 +58,8 @@ TEST(Conductor, DefaultIsSmoothCopper) {
   const auto s = copper.at()->sample(slanted, 0.5f, {0.3f, 0.4f}, Transport::radiance);
   ASSERT_TRUE(s && s->delta);
   EXPECT_EQ(s->wi, vec3(-slanted.x, -slanted.y, slanted.z));
-  const FresnelCurve curve = FresnelCurve::from_spectra(*named_spectrum("metal-Cu-eta"),
-                                                        *named_spectrum("metal-Cu-k"));
+  const FresnelCurve curve =
+      FresnelCurve::from_spectra(*named_spectrum("metal-Cu-eta"), *named_spectrum("metal-Cu-k"));
   expect_near(s->weight, curve(slanted.z), 1e-6f);
   EXPECT_GT(s->weight.x, s->weight.z);
 }

@@ -42,14 +42,14 @@ TEST(ScaleAndMix, CombineOthers) {
   resolver.floats["three"] = constant_texture(3.f);
   resolver.colours["red"] = constant_texture(Rgb(1.f, 0.f, 0.f));
   resolver.floats["broken"] = constant_texture(std::numeric_limits<float>::quiet_NaN());
-  const auto scaled = make_texture<Rgb>(
-      "scale", {texture("tex", "red"), texture("scale", "three")}, &resolver);
+  const auto scaled =
+      make_texture<Rgb>("scale", {texture("tex", "red"), texture("scale", "three")}, &resolver);
   EXPECT_EQ(scaled->evaluate(Hit()), Rgb(3.f, 0.f, 0.f));
   EXPECT_TRUE(scaled->constant());
   EXPECT_EQ(make_texture<float>("scale")->evaluate(Hit()), 1.f);
   EXPECT_EQ(make_texture<float>("mix")->evaluate(Hit()), 0.5f);
-  const auto mixed = make_texture<Rgb>("mix", {texture("tex1", "red"), number("amount", 0.25f)},
-                                       &resolver);
+  const auto mixed =
+      make_texture<Rgb>("mix", {texture("tex1", "red"), number("amount", 0.25f)}, &resolver);
   EXPECT_EQ(mixed->evaluate(Hit()), Rgb(1.f, 0.25f, 0.25f));
   const auto broken = make_texture<float>("mix", {texture("amount", "broken")}, &resolver);
   EXPECT_TRUE(std::isnan(broken->evaluate(Hit())));
@@ -57,20 +57,22 @@ TEST(ScaleAndMix, CombineOthers) {
 }
 
 TEST(Checkerboard, SquaresAndCubes) {
-  const auto squares = make_texture<float>("checkerboard", {number("uscale", 2.f),
-                                                            number("vscale", 4.f)});
+  const auto squares =
+      make_texture<float>("checkerboard", {number("uscale", 2.f), number("vscale", 4.f)});
   EXPECT_EQ(squares->evaluate(at_uv(0.1f, 0.1f)), 1.f);
   EXPECT_EQ(squares->evaluate(at_uv(0.6f, 0.1f)), 0.f);
   EXPECT_EQ(squares->evaluate(at_uv(0.6f, 0.3f)), 1.f);
   EXPECT_EQ(squares->evaluate(at_uv(-0.1f, 0.1f)), 0.f);
-  const auto cubes = make_texture<Rgb>(
-      "checkerboard", {integer("dimension", 3), rgb("tex2", 0.f, 0.f, 1.f)}, nullptr,
-      Transform::translate(dvec3(10., 0., 0.)));
+  const auto cubes =
+      make_texture<Rgb>("checkerboard", {integer("dimension", 3), rgb("tex2", 0.f, 0.f, 1.f)},
+                        nullptr, Transform::translate(dvec3(10., 0., 0.)));
   EXPECT_EQ(cubes->evaluate(at_point({10.5f, 0.5f, 0.5f})), Rgb(1.f));
   EXPECT_EQ(cubes->evaluate(at_point({11.5f, 0.5f, 0.5f})), Rgb(0.f, 0.f, 1.f));
   EXPECT_EQ(cubes->evaluate(at_point({11.5f, 0.5f, -0.5f})), Rgb(1.f));
-  EXPECT_NE(error_of([] { make_texture<float>("checkerboard", {integer("dimension", 4)}); })
-                .find("test-scene:7:3"), std::string::npos);
+  EXPECT_NE(error_of([] {
+              make_texture<float>("checkerboard", {integer("dimension", 4)});
+            }).find("test-scene:7:3"),
+            std::string::npos);
 }
 
 TextureMapping2D mapping(const ParameterSet& set, const Transform& transform = {}) {
@@ -90,9 +92,10 @@ TEST(TextureMapping, Coordinates) {
   const auto cylindrical = mapping({text("mapping", "cylindrical")});
   EXPECT_NEAR(cylindrical.map(at_point({0.f, 2.f, 7.f})).x, 0.75f, 1e-6f);
   EXPECT_EQ(cylindrical.map(at_point({0.f, 2.f, 7.f})).y, 7.f);
-  const auto planar = mapping({text("mapping", "planar"),
-                               floats(ParameterType::Vector3, "v1", {0.f, 0.f, 2.f}),
-                               number("udelta", 1.f)}, Transform::scale(dvec3(2.)));
+  const auto planar =
+      mapping({text("mapping", "planar"), floats(ParameterType::Vector3, "v1", {0.f, 0.f, 2.f}),
+               number("udelta", 1.f)},
+              Transform::scale(dvec3(2.)));
   EXPECT_EQ(planar.map(at_point({1.f, 4.f, 3.f})), vec2(4.f, 2.f));
 }
 
@@ -152,7 +155,8 @@ TEST_F(ImageMapTest, UpperRowIsAtTheTop) {
 TEST_F(ImageMapTest, WrapsAndPointFilter) {
   const auto value = [&](const char* wrap, const char* filter, float u, float v) {
     return make_texture<Rgb>("imagemap", {text("filename", corners()), text("wrap", wrap),
-                                          text("filter", filter)})->evaluate(at_uv(u, v));
+                                          text("filter", filter)})
+        ->evaluate(at_uv(u, v));
   };
   EXPECT_EQ(value("repeat", "bilinear", 1.25f, -0.25f), Rgb(0.f));
   EXPECT_EQ(value("repeat", "bilinear", 1.f, 0.25f), Rgb(0.5f, 1.f, 0.5f));
@@ -208,7 +212,8 @@ TEST_F(ImageMapTest, WideFootprintsSeeTheMean) {
   const std::string file = ppm("noise.ppm", 13, 7, bytes);
   const auto bilinear = make_texture<Rgb>("imagemap", {text("filename", file)});
   for (const char* filter : {"trilinear", "ewa"}) {
-    const auto map = make_texture<Rgb>("imagemap", {text("filename", file), text("filter", filter)});
+    const auto map =
+        make_texture<Rgb>("imagemap", {text("filename", file), text("filter", filter)});
     Hit hit = at_uv(0.31f, 0.67f);
     const Rgb sharp = bilinear->evaluate(hit);
     EXPECT_NEAR(map->evaluate(hit).x, sharp.x, 1e-6f) << filter;
@@ -249,12 +254,13 @@ TEST_F(ImageMapTest, RefusalsHaveAPlace) {
   std::ofstream(path("text.png")) << "hello";
   write_image(path("cut.exr"), Image(64, 64, 3), {}, {});
   fs::resize_file(path("cut.exr"), fs::file_size(path("cut.exr")) / 2);
-  const std::vector<ParameterSet> bad = {
-      {text("filename", path("missing.png"))}, {text("filename", path("text.png"))},
-      {text("filename", path("cut.exr"))},     {text("filename", good), text("filter", "box")},
-      {text("filename", good), text("wrap", "mirror")},
-      {text("filename", good), text("encoding", "rec709")},
-      {text("filename", good), text("mapping", "cubic")}};
+  const std::vector<ParameterSet> bad = {{text("filename", path("missing.png"))},
+                                         {text("filename", path("text.png"))},
+                                         {text("filename", path("cut.exr"))},
+                                         {text("filename", good), text("filter", "box")},
+                                         {text("filename", good), text("wrap", "mirror")},
+                                         {text("filename", good), text("encoding", "rec709")},
+                                         {text("filename", good), text("mapping", "cubic")}};
   for (const ParameterSet& set : bad)
     EXPECT_NE(error(set).find("test-scene:7:3"), std::string::npos) << error(set);
   EXPECT_NE(error({}).find("filename"), std::string::npos);

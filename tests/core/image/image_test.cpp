@@ -187,7 +187,8 @@ TEST_F(ImageTest, UnwritableIsFoundBeforehand) {
   fs::create_directory(path("folder.exr"));
   EXPECT_NE(message<Error>([&] { check_writable(path("folder.exr")); }), "");
   for (const char* name : {"no/a.exr", "no/a.pfm", "no/a.png", "a.gif"})
-    EXPECT_NE(message<Failure>([&] { write_image(path(name), gradient(2, 2), {}, {}); }), "") << name;
+    EXPECT_NE(message<Failure>([&] { write_image(path(name), gradient(2, 2), {}, {}); }), "")
+        << name;
 }
 
 TEST_F(ImageTest, FailedWriteLeavesTheOldFile) {
