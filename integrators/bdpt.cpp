@@ -113,8 +113,7 @@ class Bdpt final : public Integrator {
     tracer_ = std::make_unique<SubpathTracer>(scene, limits_, mis_);
     // Without a surface that can be joined, light subpaths only serve to show the lamps themselves,
     // which the camera subpath does better.
-    light_side_ = scene.features().connectible && !scene.lights().empty() &&
-                  limits_.max_bounces > 0;
+    light_side_ = scene.features().connectible && !scene.lights().empty();
     lamps_to_lens_ = light_side_ && scene.features().area_lights;
   }
   std::string sees() const override {
