@@ -34,8 +34,9 @@ class DiffuseAreaLight final : public Light {
     const float power = p.number("power", -1.f, "W", "Total emitted power; negative: from L.");
     two_sided_ = p.flag("twosided", false, "Emit from the inside as well.");
     const std::string file = p.file("filename", "Image of radiance over (u, v).");
-    if (scale < 0.f) p.fail("scale", "must not be negative");
-    if (has_radiance && !file.empty()) p.fail("filename", "cannot be given together with \"L\"");
+    if (scale < 0.f) p.fail("scale", "\"scale\" must not be negative");
+    if (has_radiance && !file.empty())
+      p.fail("filename", "\"filename\" cannot be given together with \"L\"");
     if (p.describing()) return;
     if (!file.empty()) load(p, file);
     radiance_ *= scale;
@@ -145,9 +146,8 @@ class DiffuseAreaLight final : public Light {
     const float x = coordinate(uv.x, image_.width), y = coordinate(1.f - uv.y, image_.height);
     const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
     const float dx = x - static_cast<float>(ix), dy = y - static_cast<float>(iy);
-    return radiance_ *
-           ((1.f - dy) * ((1.f - dx) * texel(ix, iy) + dx * texel(ix + 1, iy)) +
-            dy * ((1.f - dx) * texel(ix, iy + 1) + dx * texel(ix + 1, iy + 1)));
+    return radiance_ * ((1.f - dy) * ((1.f - dx) * texel(ix, iy) + dx * texel(ix + 1, iy)) +
+                        dy * ((1.f - dx) * texel(ix, iy + 1) + dx * texel(ix + 1, iy + 1)));
   }
   float opacity(const EndpointPoint& at) const {
     if (!alpha_) return 1.f;

@@ -1,8 +1,8 @@
 // Orthographic camera: all rays are parallel, objects keep their size at any distance.
 //
-// Source: Pharr, Jakob, Humphreys 2023, Physically Based Rendering, section 5.2.1. As an endpoint it
-// is the mirror image of a distant light: the direction is a delta, positions lie on the film, and
-// pdf_position is (pixels per m^2) / (pixels in the window). A lens is refused: in the format's
+// Source: Pharr, Jakob, Humphreys 2023, Physically Based Rendering, section 5.2.1. As an endpoint
+// it is the mirror image of a distant light: the direction is a delta, positions lie on the film,
+// and pdf_position is (pixels per m^2) / (pixels in the window). A lens is refused: in the format's
 // own renderer it gathers all rays at one point, which is a perspective camera.
 #include <glm/matrix.hpp>
 
@@ -20,7 +20,7 @@ class Orthographic final : public Camera {
     const float lens_radius = p.number("lensradius", 0.f, "m", "Must be 0.");
     const float focus = p.number("focaldistance", 1e6f, "m", "Without a lens all is in focus.");
     if (lens_radius != 0.f) p.fail("lensradius", "a lens is not supported yet");
-    if (!(focus > 0.f)) p.fail("focaldistance", "must be positive");
+    if (!(focus > 0.f)) p.fail("focaldistance", "\"focaldistance\" must be positive");
     if (!p.describing()) place(p.transform());
   }
 
@@ -43,8 +43,8 @@ class Orthographic final : public Camera {
 
   // The one point of the film that sees the reference.
   std::optional<Toward> toward(const vec3& reference, const vec2&) const override {
-    const double depth = glm::dot(dvec3(reference) - center_, dvec3(normal_)) /
-                         static_cast<double>(cosine_);
+    const double depth =
+        glm::dot(dvec3(reference) - center_, dvec3(normal_)) / static_cast<double>(cosine_);
     if (!(depth > 0.0)) return std::nullopt;
     Toward t;
     t.at.position = vec3(dvec3(reference) - depth * exact_direction_);

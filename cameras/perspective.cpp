@@ -20,13 +20,13 @@ class Perspective final : public Camera {
   Perspective(Parameters& p, const RasterFrame& frame) : screen_(p, frame) {
     const double fov = static_cast<double>(
         p.number("fov", 90.f, "degrees", "Angle of view along the shorter axis."));
-    lens_radius_ = static_cast<double>(
-        p.number("lensradius", 0.f, "m", "Radius of the lens; 0: pinhole."));
+    lens_radius_ =
+        static_cast<double>(p.number("lensradius", 0.f, "m", "Radius of the lens; 0: pinhole."));
     focus_ = static_cast<double>(
         p.number("focaldistance", 1e6f, "m", "Distance of the plane in focus."));
-    if (!(fov > 0.0 && fov < 180.0)) p.fail("fov", "must lie between 0 and 180 degrees");
-    if (lens_radius_ < 0.0) p.fail("lensradius", "must not be negative");
-    if (!(focus_ > 0.0)) p.fail("focaldistance", "must be positive");
+    if (!(fov > 0.0 && fov < 180.0)) p.fail("fov", "\"fov\" must lie between 0 and 180 degrees");
+    if (lens_radius_ < 0.0) p.fail("lensradius", "\"lensradius\" must not be negative");
+    if (!(focus_ > 0.0)) p.fail("focaldistance", "\"focaldistance\" must be positive");
     if (p.describing()) return;
     tangent_ = std::tan(glm::radians(0.5 * fov));
     place(p.transform());

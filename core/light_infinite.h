@@ -7,8 +7,8 @@
 
 namespace pssmlt {
 
-// Rays of a light at infinity start on a disk as large as the scene's bounding sphere, behind it and
-// facing the direction of flight.
+// Rays of a light at infinity start on a disk as large as the scene's bounding sphere, behind it
+// and facing the direction of flight.
 class EntryDisk {
  public:
   void set(const SceneBounds& bounds) {

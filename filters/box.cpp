@@ -14,8 +14,8 @@ class Box final : public Filter {
   explicit Box(Parameters& p)
       : radius_(p.number("xradius", 0.5f, "pixels", "Half width of the support in x."),
                 p.number("yradius", 0.5f, "pixels", "Half width of the support in y.")) {
-    if (!(radius_.x > 0.f)) p.fail("xradius", "must be positive");
-    if (!(radius_.y > 0.f)) p.fail("yradius", "must be positive");
+    if (!(radius_.x > 0.f)) p.fail("xradius", "\"xradius\" must be positive");
+    if (!(radius_.y > 0.f)) p.fail("yradius", "\"yradius\" must be positive");
   }
   vec2 radius() const override { return radius_; }
   float evaluate(const vec2& offset) const override {

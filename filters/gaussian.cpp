@@ -1,4 +1,5 @@
-// A Gaussian lowered so that it reaches zero at the radius: smooth, never negative, slightly blurry.
+// A Gaussian lowered so that it reaches zero at the radius: smooth, never negative, slightly
+// blurry.
 //
 // Source: Pharr, Jakob, Humphreys 2023, Physically Based Rendering, section 8.8.3.
 #include "core/filter.h"
@@ -16,11 +17,11 @@ class Gaussian final : public Filter {
                 p.number("yradius", 1.5f, "pixels", "Half width of the support in y.")),
         sigma_(p.number("sigma", 0.5f, "pixels", "Standard deviation.")),
         edge_(gauss(radius_.x), gauss(radius_.y)) {
-    if (!(radius_.x > 0.f)) p.fail("xradius", "must be positive");
-    if (!(radius_.y > 0.f)) p.fail("yradius", "must be positive");
-    if (!(sigma_ > 0.f)) p.fail("sigma", "must be positive");
+    if (!(radius_.x > 0.f)) p.fail("xradius", "\"xradius\" must be positive");
+    if (!(radius_.y > 0.f)) p.fail("yradius", "\"yradius\" must be positive");
+    if (!(sigma_ > 0.f)) p.fail("sigma", "\"sigma\" must be positive");
     if (!p.describing() && !(evaluate(vec2(0.f)) > 0.f))
-      p.fail("sigma", "is so large for the radius that nothing is left of the filter");
+      p.fail("sigma", "\"sigma\" is so large for the radius that nothing is left of the filter");
   }
   vec2 radius() const override { return radius_; }
   float evaluate(const vec2& offset) const override {

@@ -16,8 +16,8 @@ class Mitchell final : public Filter {
                 p.number("yradius", 2.f, "pixels", "Half width of the support in y.")),
         b_(p.number("B", 1.f / 3.f, "", "Share of the cubic B-spline (blurring).")),
         c_(p.number("C", 1.f / 3.f, "", "Share of the cardinal cubic spline (ringing).")) {
-    if (!(radius_.x > 0.f)) p.fail("xradius", "must be positive");
-    if (!(radius_.y > 0.f)) p.fail("yradius", "must be positive");
+    if (!(radius_.x > 0.f)) p.fail("xradius", "\"xradius\" must be positive");
+    if (!(radius_.y > 0.f)) p.fail("yradius", "\"yradius\" must be positive");
   }
   vec2 radius() const override { return radius_; }
   float evaluate(const vec2& offset) const override {
@@ -30,10 +30,12 @@ class Mitchell final : public Filter {
     const float x = std::abs(t);
     if (x <= 1.f)
       return ((12.f - 9.f * b_ - 6.f * c_) * x * x * x + (-18.f + 12.f * b_ + 6.f * c_) * x * x +
-              (6.f - 2.f * b_)) / 6.f;
+              (6.f - 2.f * b_)) /
+             6.f;
     if (x <= 2.f)
       return ((-b_ - 6.f * c_) * x * x * x + (6.f * b_ + 30.f * c_) * x * x +
-              (-12.f * b_ - 48.f * c_) * x + (8.f * b_ + 24.f * c_)) / 6.f;
+              (-12.f * b_ - 48.f * c_) * x + (8.f * b_ + 24.f * c_)) /
+             6.f;
     return 0.f;
   }
   vec2 radius_;

@@ -15,9 +15,9 @@ class WindowedSinc final : public Filter {
       : radius_(p.number("xradius", 4.f, "pixels", "Half width of the support in x."),
                 p.number("yradius", 4.f, "pixels", "Half width of the support in y.")),
         tau_(p.number("tau", 3.f, "cycles", "Cycles of the sinc before the window ends.")) {
-    if (!(radius_.x > 0.f)) p.fail("xradius", "must be positive");
-    if (!(radius_.y > 0.f)) p.fail("yradius", "must be positive");
-    if (!(tau_ > 0.f)) p.fail("tau", "must be positive");
+    if (!(radius_.x > 0.f)) p.fail("xradius", "\"xradius\" must be positive");
+    if (!(radius_.y > 0.f)) p.fail("yradius", "\"yradius\" must be positive");
+    if (!(tau_ > 0.f)) p.fail("tau", "\"tau\" must be positive");
   }
   vec2 radius() const override { return radius_; }
   float evaluate(const vec2& offset) const override {

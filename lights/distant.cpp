@@ -19,12 +19,12 @@ class DistantLight final : public Light {
     const float scale = p.number("scale", 1.f, "", "Factor of L.");
     const vec3 from = p.point("from", vec3(0.f), "m", "The light flies from here ...");
     const vec3 to = p.point("to", vec3(0.f, 0.f, 1.f), "m", "... toward here.");
-    const float illuminance = p.number("illuminance", -1.f, "W/m^2",
-                                       "Magnitude of the irradiance; negative: from L.");
-    if (scale < 0.f) p.fail("scale", "must not be negative");
+    const float illuminance =
+        p.number("illuminance", -1.f, "W/m^2", "Magnitude of the irradiance; negative: from L.");
+    if (scale < 0.f) p.fail("scale", "\"scale\" must not be negative");
     if (p.describing()) return;
     const dvec3 d = p.transform().vector(dvec3(to) - dvec3(from));
-    if (!(glm::length(d) > 0.0)) p.fail("to", "must differ from \"from\"");
+    if (!(glm::length(d) > 0.0)) p.fail("to", "\"to\" must differ from \"from\"");
     direction_ = vec3(glm::normalize(d));
     irradiance_ *= scale;
     if (illuminance > 0.f) irradiance_ *= illuminance;

@@ -50,10 +50,11 @@ class InfiniteLight final : public Light {
     const std::string file = p.file("filename", "Image of radiance, a square equal-area map.");
     const float illuminance = p.number("illuminance", -1.f, "W/m^2",
                                        "What the horizon's upper side gives; negative: as is.");
-    if (scale < 0.f) p.fail("scale", "must not be negative");
+    if (scale < 0.f) p.fail("scale", "\"scale\" must not be negative");
     if (p.has("portal")) p.fail("portal", "portals are not supported yet");
     if (p.describing()) return;
-    if (has_radiance && !file.empty()) p.fail("filename", "cannot be given together with \"L\"");
+    if (has_radiance && !file.empty())
+      p.fail("filename", "\"filename\" cannot be given together with \"L\"");
     const glm::dmat3 m(p.transform().matrix());
     to_render_ = m;
     to_light_ = glm::inverse(m);
@@ -102,8 +103,8 @@ class InfiniteLight final : public Light {
     const dvec2 uv = sphere_to_square(glm::normalize(to_light_ * dvec3(direction)));
     const int x = std::clamp(static_cast<int>(uv.x * size_), 0, size_ - 1);
     const int y = std::clamp(static_cast<int>(uv.y * size_), 0, size_ - 1);
-    return radiance_ * pixels_[static_cast<size_t>(y) * static_cast<size_t>(size_) +
-                               static_cast<size_t>(x)];
+    return radiance_ *
+           pixels_[static_cast<size_t>(y) * static_cast<size_t>(size_) + static_cast<size_t>(x)];
   }
 
  private:
@@ -150,8 +151,8 @@ class InfiniteLight final : public Light {
     for (int y = 0; y < size_; ++y)
       for (int x = 0; x < size_; ++x) {
         const double z = square_to_sphere({(x + 0.5) / size_, (y + 0.5) / size_}).z;
-        const size_t i = static_cast<size_t>(y) * static_cast<size_t>(size_) +
-                         static_cast<size_t>(x);
+        const size_t i =
+            static_cast<size_t>(y) * static_cast<size_t>(size_) + static_cast<size_t>(x);
         if (z > 0.0) sum += z * static_cast<double>(luminance(pixels_[i]));
       }
     if (!(sum > 0.0)) p.fail("illuminance", "the image's upper hemisphere is black");
@@ -182,9 +183,9 @@ class InfiniteLight final : public Light {
 
   EntryDisk disk_;
   glm::dmat3 to_render_{1.0}, to_light_{1.0};
-  double determinant_ = 1.0;    // of to_light_
-  Rgb radiance_{1.f};           // [W/(m^2 sr)], or the image's factor
-  int size_ = 0;                // of the image [pixels]; 0: constant
+  double determinant_ = 1.0;  // of to_light_
+  Rgb radiance_{1.f};         // [W/(m^2 sr)], or the image's factor
+  int size_ = 0;              // of the image [pixels]; 0: constant
   std::vector<Rgb> pixels_;
   Distribution2D distribution_;
   float mean_luminance_ = 1.f;  // of the image

@@ -19,7 +19,7 @@ class PointLight final : public Light {
     const float scale = p.number("scale", 1.f, "", "Factor of the intensity.");
     const float power = p.number("power", -1.f, "W", "Total emitted power; negative: from I.");
     const vec3 from = p.point("from", vec3(0.f), "m", "Position.");
-    if (scale < 0.f) p.fail("scale", "must not be negative");
+    if (scale < 0.f) p.fail("scale", "\"scale\" must not be negative");
     if (p.describing()) return;
     intensity_ *= scale;
     if (power > 0.f) intensity_ *= power / (4.f * pi);

@@ -46,10 +46,11 @@ class SpotLight final : public Light {
     const vec3 to = p.point("to", vec3(0.f, 0.f, 1.f), "m", "A point on the axis.");
     const float angle = p.number("coneangle", 30.f, "degrees", "From the axis to the dark.");
     const float delta = p.number("conedeltaangle", 5.f, "degrees", "Width of the soft edge.");
-    if (scale < 0.f) p.fail("scale", "must not be negative");
-    if (!(angle > 0.f && angle <= 180.f)) p.fail("coneangle", "must be in (0, 180] degrees");
+    if (scale < 0.f) p.fail("scale", "\"scale\" must not be negative");
+    if (!(angle > 0.f && angle <= 180.f))
+      p.fail("coneangle", "\"coneangle\" must be in (0, 180] degrees");
     if (!(delta >= 0.f && delta <= angle))
-      p.fail("conedeltaangle", "must lie between 0 and coneangle");
+      p.fail("conedeltaangle", "\"conedeltaangle\" must lie between 0 and coneangle");
     if (p.describing()) return;
     cos_end_ = std::cos(glm::radians(static_cast<double>(angle)));
     cos_start_ = std::cos(glm::radians(static_cast<double>(angle) - static_cast<double>(delta)));
@@ -104,7 +105,7 @@ class SpotLight final : public Light {
   void place(const Parameters& p, const vec3& from, const vec3& to) {
     const dvec3 position = p.transform().point(dvec3(from));
     const dvec3 axis = p.transform().point(dvec3(to)) - position;
-    if (!(glm::length(axis) > 0.0)) p.fail("to", "must differ from the light's position");
+    if (!(glm::length(axis) > 0.0)) p.fail("to", "\"to\" must differ from the light's position");
     position_ = vec3(position);
     frame_ = Frame(vec3(glm::normalize(axis)));
   }
@@ -131,7 +132,7 @@ class SpotLight final : public Light {
   }
 
   vec3 position_{0.f};
-  Frame frame_;  // n: axis
+  Frame frame_;         // n: axis
   Rgb intensity_{0.f};  // on the axis [W/sr]
   double cos_end_ = 0.0, cos_start_ = 0.0;
 };

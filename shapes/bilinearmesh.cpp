@@ -13,8 +13,8 @@ namespace {
 
 PatchData read(Parameters& p) {
   PatchData data;
-  std::vector<int> indices = p.integers(
-      "indices", "", "Four vertices a patch; may be left out for a single patch.");
+  std::vector<int> indices =
+      p.integers("indices", "", "Four vertices a patch; may be left out for a single patch.");
   data.positions = p.points3("P", "m", "Positions of the vertices.");
   data.normals = p.normals("N", "Shading normals of the vertices.");
   data.uvs = p.points2("uv", "", "Texture coordinates of the vertices.");

@@ -21,9 +21,9 @@ class Cylinder final : public QuadricShape {
     const float zmin = p.number("zmin", -1.f, "m", "One end.");
     const float zmax = p.number("zmax", 1.f, "m", "The other end.");
     const float phimax = p.number("phimax", 360.f, "degrees", "Sweep about the z axis.");
-    if (!(radius > 0.f)) p.fail("radius", "must be positive");
-    if (!(phimax > 0.f)) p.fail("phimax", "must be positive");
-    if (zmin == zmax) p.fail("zmin", "must differ from \"zmax\"");
+    if (!(radius > 0.f)) p.fail("radius", "\"radius\" must be positive");
+    if (!(phimax > 0.f)) p.fail("phimax", "\"phimax\" must be positive");
+    if (zmin == zmax) p.fail("zmin", "\"zmin\" must differ from \"zmax\"");
     r_ = static_cast<double>(radius);
     zmin_ = static_cast<double>(std::min(zmin, zmax));
     zmax_ = static_cast<double>(std::max(zmin, zmax));
@@ -55,11 +55,11 @@ class Cylinder final : public QuadricShape {
     const double half = std::sqrt(discriminant);
     return first_root(middle - half, middle + half, t_min, t_max,
                       [&](double t) -> std::optional<Root> {
-      const dvec3 p = o + t * d;
-      const double phi = azimuth(p.x, p.y);
-      if (p.z < zmin_ || p.z > zmax_ || phi > phimax_) return std::nullopt;
-      return Root{t, {phi / phimax_, (p.z - zmin_) / (zmax_ - zmin_)}};
-    });
+                        const dvec3 p = o + t * d;
+                        const double phi = azimuth(p.x, p.y);
+                        if (p.z < zmin_ || p.z > zmax_ || phi > phimax_) return std::nullopt;
+                        return Root{t, {phi / phimax_, (p.z - zmin_) / (zmax_ - zmin_)}};
+                      });
   }
 
   dvec2 sample_uv(const dvec2& u) const override { return {u.y, u.x}; }

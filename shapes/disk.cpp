@@ -20,9 +20,10 @@ class Disk final : public QuadricShape {
     const float radius = p.number("radius", 1.f, "m", "Outer radius.");
     const float inner = p.number("innerradius", 0.f, "m", "Radius of the hole.");
     const float phimax = p.number("phimax", 360.f, "degrees", "Sweep about the z axis.");
-    if (!(radius > 0.f)) p.fail("radius", "must be positive");
-    if (!(inner >= 0.f && inner < radius)) p.fail("innerradius", "must lie in [0, radius)");
-    if (!(phimax > 0.f)) p.fail("phimax", "must be positive");
+    if (!(radius > 0.f)) p.fail("radius", "\"radius\" must be positive");
+    if (!(inner >= 0.f && inner < radius))
+      p.fail("innerradius", "\"innerradius\" must lie in [0, radius)");
+    if (!(phimax > 0.f)) p.fail("phimax", "\"phimax\" must be positive");
     r_ = static_cast<double>(radius);
     inner_ = static_cast<double>(inner);
     phimax_ = two_pi * std::min(static_cast<double>(phimax), 360.0) / 360.0;
@@ -57,9 +58,7 @@ class Disk final : public QuadricShape {
     const double r = std::sqrt(inner_ * inner_ + u.x * (r_ * r_ - inner_ * inner_));
     return {u.y, (r_ - r) / (r_ - inner_)};
   }
-  double local_area() const override {
-    return 0.5 * phimax_ * (r_ * r_ - inner_ * inner_);
-  }
+  double local_area() const override { return 0.5 * phimax_ * (r_ * r_ - inner_ * inner_); }
   void local_box(dvec3& low, dvec3& high) const override {
     low = {-r_, -r_, height_};
     high = {r_, r_, height_};

@@ -51,13 +51,20 @@ class AccessorReader {
     const unsigned char* const p =
         data_ + i * stride_ + static_cast<size_t>(component) * component_size_;
     switch (type_) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE: return integer<int8_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return integer<uint8_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_SHORT: return integer<int16_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return integer<uint16_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return load<uint32_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_FLOAT: return static_cast<double>(load<float>(p));
-      default: throw std::runtime_error("an accessor has an unknown component type");
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return integer<int8_t>(p);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return integer<uint8_t>(p);
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return integer<int16_t>(p);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return integer<uint16_t>(p);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return load<uint32_t>(p);
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return static_cast<double>(load<float>(p));
+      default:
+        throw std::runtime_error("an accessor has an unknown component type");
     }
   }
 
@@ -85,8 +92,8 @@ dmat4 node_matrix(const tinygltf::Node& node) {
   if (node.translation.size() == 3)
     m[3] = {node.translation[0], node.translation[1], node.translation[2], 1.0};
   if (node.rotation.size() == 4)
-    m = m * glm::mat4_cast(glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1],
-                                      node.rotation[2]));
+    m = m * glm::mat4_cast(
+                glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]));
   if (node.scale.size() == 3)
     for (int i = 0; i < 3; ++i) m[i] *= node.scale[static_cast<size_t>(i)];
   return m;
@@ -175,8 +182,7 @@ class Importer {
     if (reader.count() != count || reader.components() != 2)
       throw std::runtime_error("texture coordinates do not fit the positions");
     has_uvs_ = true;
-    for (size_t i = 0; i < count; ++i)
-      out.emplace_back(reader.get(i, 0), 1.0 - reader.get(i, 1));
+    for (size_t i = 0; i < count; ++i) out.emplace_back(reader.get(i, 0), 1.0 - reader.get(i, 1));
   }
 
   void triangles(const tinygltf::Primitive& p, int mode, uint32_t first, size_t vertices,
@@ -200,10 +206,12 @@ class Importer {
     };
     const size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
     for (size_t i = 0; i + 3 <= order.size(); i += step) {
-      if (mode == TINYGLTF_MODE_TRIANGLE_FAN) add(order[0], order[i + 1], order[i + 2]);
+      if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+        add(order[0], order[i + 1], order[i + 2]);
       else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1)
         add(order[i], order[i + 2], order[i + 1]);
-      else add(order[i], order[i + 1], order[i + 2]);
+      else
+        add(order[i], order[i + 1], order[i + 2]);
     }
   }
 

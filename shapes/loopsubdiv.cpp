@@ -1,5 +1,5 @@
-// A smooth surface from a coarse triangle mesh by Loop subdivision, levels times, then pushed to its
-// limit (core/shapes/loop_subdivision.h). Costs four times the triangles a level.
+// A smooth surface from a coarse triangle mesh by Loop subdivision, levels times, then pushed to
+// its limit (core/shapes/loop_subdivision.h). Costs four times the triangles a level.
 #include "core/plugin/plugin.h"
 #include "core/shapes/loop_subdivision.h"
 #include "core/shapes/mesh_shape.h"
@@ -30,11 +30,12 @@ MeshData read(Parameters& p) {
   if (positions.empty()) p.fail("P", "vertex positions \"P\" are missing or empty");
   if (indices.empty()) p.fail("indices", "vertex indices \"indices\" are missing or empty");
   if (levels < 0 || levels > most_levels)
-    p.fail("levels", "must lie between 0 and " + std::to_string(most_levels));
+    p.fail("levels", "\"levels\" must lie between 0 and " + std::to_string(most_levels));
   SubdivisionMesh mesh;
   mesh.triangles = triangles_of(indices, p);
   if (mesh.triangles.size() > most_triangles >> (2 * levels))
-    p.fail("levels", "would make more than " + std::to_string(most_triangles) + " triangles");
+    p.fail("levels",
+           "\"levels\" would make more than " + std::to_string(most_triangles) + " triangles");
   for (const vec3& v : positions) mesh.positions.emplace_back(v);
   const std::string fault = check_for_subdivision(mesh);
   if (!fault.empty()) p.fail("indices", fault);

@@ -1,7 +1,7 @@
 // A mesh from a PLY file: ASCII or binary, gzipped or not; polygons become triangles.
 //
-// Parameters and format: pbrt.org/fileformat-v4 and core/shapes/ply.h. Displacement of meshes is not
-// supported.
+// Parameters and format: pbrt.org/fileformat-v4 and core/shapes/ply.h. Displacement of meshes is
+// not supported.
 #include "core/plugin/plugin.h"
 #include "core/shapes/mesh_shape.h"
 #include "core/shapes/ply.h"

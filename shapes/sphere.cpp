@@ -1,9 +1,10 @@
-// A sphere around the origin, whole or cut by two planes of constant z and a sweep about the z axis.
+// A sphere around the origin, whole or cut by two planes of constant z and a sweep about the z
+// axis.
 //
 // Source: Pharr, Jakob, Humphreys 2023, Physically Based Rendering, section 6.2; the intersection
-// uses the distance from the centre to the ray, which does not cancel for distant spheres (Haines et
-// al. 2019, Precision Improvements for Ray/Sphere Intersection, in Ray Tracing Gems). Whole spheres
-// that no transform distorts are sampled over the cone in which they are seen from outside.
+// uses the distance from the centre to the ray, which does not cancel for distant spheres (Haines
+// et al. 2019, Precision Improvements for Ray/Sphere Intersection, in Ray Tracing Gems). Whole
+// spheres that no transform distorts are sampled over the cone in which they are seen from outside.
 #include <algorithm>
 
 #include "core/base/frame.h"
@@ -24,8 +25,8 @@ class Sphere final : public QuadricShape {
     const float zmin = p.number("zmin", -radius, "m", "Lower cut; default: none.");
     const float zmax = p.number("zmax", radius, "m", "Upper cut; default: none.");
     const float phimax = p.number("phimax", 360.f, "degrees", "Sweep about the z axis.");
-    if (!(radius > 0.f)) p.fail("radius", "must be positive");
-    if (!(phimax > 0.f)) p.fail("phimax", "must be positive");
+    if (!(radius > 0.f)) p.fail("radius", "\"radius\" must be positive");
+    if (!(phimax > 0.f)) p.fail("phimax", "\"phimax\" must be positive");
     r_ = static_cast<double>(radius);
     zmin_ = std::clamp(static_cast<double>(std::min(zmin, zmax)), -r_, r_);
     zmax_ = std::clamp(static_cast<double>(std::max(zmin, zmax)), -r_, r_);
@@ -55,9 +56,9 @@ class Sphere final : public QuadricShape {
  private:
   // The cone in which the sphere is seen.
   struct Cone {
-    dvec3 to_center;          // from the reference
-    double distance2;         // squared, to the centre
-    double one_minus_cosine;  // of half its angle
+    dvec3 to_center;                                                  // from the reference
+    double distance2;                                                 // squared, to the centre
+    double one_minus_cosine;                                          // of half its angle
     double pdf() const { return 1.0 / (two_pi * one_minus_cosine); }  // [1/sr]
   };
   // nullopt for parts of spheres, distorted ones, and from inside.
@@ -77,8 +78,8 @@ Sphere::Local Sphere::at(const dvec2& uv) const {
   l.normal = {sin_theta * cos_phi, sin_theta * sin_phi, cos_theta};
   l.position = r_ * l.normal;
   l.dndu = phimax_ * dvec3(-l.normal.y, l.normal.x, 0.0);
-  l.dndv = (theta_zmax_ - theta_zmin_) * dvec3(cos_theta * cos_phi, cos_theta * sin_phi,
-                                               -sin_theta);
+  l.dndv =
+      (theta_zmax_ - theta_zmin_) * dvec3(cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta);
   l.dpdu = r_ * l.dndu;
   l.dpdv = r_ * l.dndv;
   return l;
@@ -91,15 +92,15 @@ std::optional<Sphere::Root> Sphere::intersect_local(const dvec3& o, const dvec3&
   const double discriminant = (r_ * r_ - glm::dot(nearest, nearest)) / a;
   if (!(discriminant >= 0.0)) return std::nullopt;
   const double half = std::sqrt(discriminant);
-  return first_root(middle - half, middle + half, t_min, t_max,
-                    [&](double t) -> std::optional<Root> {
-    dvec3 p = o + t * d;
-    p *= r_ / glm::length(p);
-    const double phi = azimuth(p.x, p.y);
-    if (p.z < zmin_ || p.z > zmax_ || phi > phimax_) return std::nullopt;
-    const double theta = std::atan2(std::hypot(p.x, p.y), p.z);
-    return Root{t, {phi / phimax_, (theta - theta_zmin_) / (theta_zmax_ - theta_zmin_)}};
-  });
+  return first_root(
+      middle - half, middle + half, t_min, t_max, [&](double t) -> std::optional<Root> {
+        dvec3 p = o + t * d;
+        p *= r_ / glm::length(p);
+        const double phi = azimuth(p.x, p.y);
+        if (p.z < zmin_ || p.z > zmax_ || phi > phimax_) return std::nullopt;
+        const double theta = std::atan2(std::hypot(p.x, p.y), p.z);
+        return Root{t, {phi / phimax_, (theta - theta_zmin_) / (theta_zmax_ - theta_zmin_)}};
+      });
 }
 
 std::optional<Sphere::Cone> Sphere::cone(const vec3& reference) const {

@@ -19,7 +19,8 @@ class BoxTree {
   }
   Bounds bounds() const { return nodes_.empty() ? Bounds{vec3(0.f), vec3(0.f)} : nodes_[0].box; }
 
-  // Calls visit(part, t_max) for parts whose boxes the ray meets before t_max; visit may lower t_max.
+  // Calls visit(part, t_max) for parts whose boxes the ray meets before t_max; visit may lower
+  // t_max.
   template <typename Visit>
   void walk(const dvec3& origin, const dvec3& direction, double t_min, double t_max,
             const Visit& visit) const {
@@ -72,14 +73,16 @@ class BoxTree {
     constexpr uint32_t leaf_size = 2;
     if (end - begin <= leaf_size) return;
     const vec3 extent = centers.max - centers.min;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
     const auto middle = begin + (end - begin) / 2;
     std::nth_element(parts_.begin() + begin, parts_.begin() + middle, parts_.begin() + end,
                      [&](uint32_t a, uint32_t b) {
-      const float ca = boxes[a].min[axis] + boxes[a].max[axis];
-      const float cb = boxes[b].min[axis] + boxes[b].max[axis];
-      return ca != cb ? ca < cb : a < b;
-    });
+                       const float ca = boxes[a].min[axis] + boxes[a].max[axis];
+                       const float cb = boxes[b].min[axis] + boxes[b].max[axis];
+                       return ca != cb ? ca < cb : a < b;
+                     });
     build(boxes, begin, middle);
     nodes_[at].second = static_cast<uint32_t>(nodes_.size());
     build(boxes, middle, end);

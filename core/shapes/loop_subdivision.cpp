@@ -157,7 +157,8 @@ class EdgeVertices {
 std::string check_for_subdivision(const SubdivisionMesh& mesh) {
   for (const glm::uvec3& t : mesh.triangles) {
     for (int i = 0; i < 3; ++i)
-      if (t[i] >= mesh.positions.size()) return "index " + std::to_string(t[i]) + " is out of range";
+      if (t[i] >= mesh.positions.size())
+        return "index " + std::to_string(t[i]) + " is out of range";
     if (t.x == t.y || t.y == t.z || t.z == t.x)
       return "a triangle uses vertex " + std::to_string(t.x == t.y ? t.x : t.z) + " twice";
   }

@@ -71,8 +71,8 @@ void MeshShape::check(const MeshData& data, const Parameters& p) const {
   const size_t count = m.positions.size();
   const auto check_size = [&](size_t size, const char* parameter, const char* what) {
     if (size != 0 && size != count)
-      p.fail(parameter, std::string("the mesh has ") + std::to_string(size) + " " + what +
-                            " for " + std::to_string(count) + " vertices");
+      p.fail(parameter, std::string("the mesh has ") + std::to_string(size) + " " + what + " for " +
+                            std::to_string(count) + " vertices");
   };
   check_size(m.normals.size(), "N", "normals");
   check_size(m.uvs.size(), "uv", "texture coordinates");
@@ -155,8 +155,8 @@ void MeshShape::fill(const vec2& where, Hit& hit) const {
   const Corners c = corners(hit.element);
   const vec3 b = barycentric(where);
   hit.position = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
-  hit.error = interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) +
-                                     glm::abs(b.z * c.p2));
+  hit.error =
+      interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) + glm::abs(b.z * c.p2));
   const vec3 ns = shading_normal(hit.element, b);
   hit.ng = outside(c, ns);
   const float l2 = length_squared(ns);
@@ -181,8 +181,8 @@ void MeshShape::set_derivatives(uint32_t triangle, const Corners& c, Hit& hit) c
   };
   solve(c.p0 - c.p2, c.p1 - c.p2, hit.dpdu, hit.dpdv);
   const float spread = length_squared(glm::cross(hit.dpdu, hit.dpdv));
-  const bool degenerate = !(std::abs(determinant) >= 1e-9f) || !(spread > 0.f) ||
-                          !std::isfinite(spread);
+  const bool degenerate =
+      !(std::abs(determinant) >= 1e-9f) || !(spread > 0.f) || !std::isfinite(spread);
   if (degenerate) {
     const Frame frame(hit.ng);
     hit.dpdu = frame.s;
@@ -222,8 +222,8 @@ SurfaceSample MeshShape::sample_area(const vec2& u) const {
   b.z = 1.f - b.x - b.y;
   const Corners c = corners(cell.index);
   s.position = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
-  s.error = interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) +
-                                   glm::abs(b.z * c.p2));
+  s.error =
+      interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) + glm::abs(b.z * c.p2));
   s.normal = outside(c, shading_normal(cell.index, b));
   s.uv = interpolated_uv(cell.index, b);
   s.element = cell.index;

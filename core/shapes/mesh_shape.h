@@ -9,7 +9,8 @@
 
 namespace pssmlt {
 
-// A mesh in its own space, as files and formulas give it. Normals of length 0 stand for "none here".
+// A mesh in its own space, as files and formulas give it. Normals of length 0 stand for "none
+// here".
 struct MeshData {
   TriangleMesh mesh;
   std::vector<vec3> tangents;  // empty or one a vertex

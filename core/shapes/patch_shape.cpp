@@ -25,8 +25,7 @@ vec3 rounding_error(const dvec3& p) { return vec3(glm::abs(p) * 0x1p-23 + 1e-40)
 }  // namespace
 
 PatchShape::PatchShape(PatchData data, const Parameters& p)
-    : data_(std::move(data)),
-      flip_(p.reverse_orientation() != p.transform().swaps_handedness()) {
+    : data_(std::move(data)), flip_(p.reverse_orientation() != p.transform().swaps_handedness()) {
   const Transform& to_render = p.transform();
   for (vec3& v : data_.positions) {
     v = to_render.point(v);
@@ -203,15 +202,16 @@ SurfaceSample PatchShape::sample_area(const vec2& u) const {
 
 dvec2 PatchShape::parameters(const SurfaceSample& at) const {
   if (data_.uvs.empty()) return dvec2(at.uv);
-  // The parameters of the patch's point nearest along the normal: rounding has moved `at` by little.
+  // The parameters of the patch's point nearest along the normal: rounding has moved `at` by
+  // little.
   dvec2 found(0.5);
   double nearest = std::numeric_limits<double>::infinity();
-  patch(at.element).roots(dvec3(at.position), dvec3(at.normal), 1e-3,
-                          [&](double t, const dvec2& uv) {
-    if (std::abs(t) >= nearest) return;
-    nearest = std::abs(t);
-    found = uv;
-  });
+  patch(at.element)
+      .roots(dvec3(at.position), dvec3(at.normal), 1e-3, [&](double t, const dvec2& uv) {
+        if (std::abs(t) >= nearest) return;
+        nearest = std::abs(t);
+        found = uv;
+      });
   return glm::min(glm::max(found, dvec2(0.0)), dvec2(1.0));
 }
 

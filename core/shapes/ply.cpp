@@ -63,14 +63,22 @@ T load(const char* p, bool swap) {
 template <typename R>
 R load_as(const char* p, Type type, bool swap) {
   switch (type) {
-    case Type::Int8: return static_cast<R>(load<int8_t>(p, swap));
-    case Type::Uint8: return static_cast<R>(load<uint8_t>(p, swap));
-    case Type::Int16: return static_cast<R>(load<int16_t>(p, swap));
-    case Type::Uint16: return static_cast<R>(load<uint16_t>(p, swap));
-    case Type::Int32: return static_cast<R>(load<int32_t>(p, swap));
-    case Type::Uint32: return static_cast<R>(load<uint32_t>(p, swap));
-    case Type::Float32: return static_cast<R>(load<float>(p, swap));
-    case Type::Float64: return static_cast<R>(load<double>(p, swap));
+    case Type::Int8:
+      return static_cast<R>(load<int8_t>(p, swap));
+    case Type::Uint8:
+      return static_cast<R>(load<uint8_t>(p, swap));
+    case Type::Int16:
+      return static_cast<R>(load<int16_t>(p, swap));
+    case Type::Uint16:
+      return static_cast<R>(load<uint16_t>(p, swap));
+    case Type::Int32:
+      return static_cast<R>(load<int32_t>(p, swap));
+    case Type::Uint32:
+      return static_cast<R>(load<uint32_t>(p, swap));
+    case Type::Float32:
+      return static_cast<R>(load<float>(p, swap));
+    case Type::Float64:
+      return static_cast<R>(load<double>(p, swap));
   }
   return R(0);
 }
@@ -160,12 +168,16 @@ class PlyReader {
   }
 
   void format(const std::string& name) {
-    if (name == "ascii") format_ = Format::Ascii;
-    else if (name == "binary_little_endian") format_ = Format::LittleEndian;
-    else if (name == "binary_big_endian") format_ = Format::BigEndian;
-    else fail("unknown format '" + name + "'");
-    swap_ = format_ == (std::endian::native == std::endian::little ? Format::BigEndian
-                                                                   : Format::LittleEndian);
+    if (name == "ascii")
+      format_ = Format::Ascii;
+    else if (name == "binary_little_endian")
+      format_ = Format::LittleEndian;
+    else if (name == "binary_big_endian")
+      format_ = Format::BigEndian;
+    else
+      fail("unknown format '" + name + "'");
+    swap_ = format_ ==
+            (std::endian::native == std::endian::little ? Format::BigEndian : Format::LittleEndian);
   }
 
   void property(std::istringstream& words, const std::string& text) {
@@ -273,8 +285,10 @@ class PlyReader {
   void vertex(const Element& e, const std::vector<int>& slots, std::array<float, 8>& v) {
     for (size_t k = 0; k < slots.size(); ++k) {
       const Property& p = e.properties[k];
-      if (slots[k] < 0) skip(p, e);
-      else v[static_cast<size_t>(slots[k])] = value<float>(p.type, e);
+      if (slots[k] < 0)
+        skip(p, e);
+      else
+        v[static_cast<size_t>(slots[k])] = value<float>(p.type, e);
     }
   }
 
@@ -288,8 +302,10 @@ class PlyReader {
     data_.mesh.triangles.reserve(e.count);
     for (uint64_t i = 0; i < e.count; ++i)
       for (const Property& p : e.properties) {
-        if (&p == &*list) polygon(p, e);
-        else skip(p, e);
+        if (&p == &*list)
+          polygon(p, e);
+        else
+          skip(p, e);
       }
   }
 
@@ -312,7 +328,8 @@ class PlyReader {
     if (format_ == Format::Ascii || size_of(*p.count) != 1 || left() < 13 || *at_ != 3 ||
         (p.type != Type::Int32 && p.type != Type::Uint32))
       return false;
-    data_.mesh.triangles.emplace_back(load<uint32_t>(at_ + 1, swap_), load<uint32_t>(at_ + 5, swap_),
+    data_.mesh.triangles.emplace_back(load<uint32_t>(at_ + 1, swap_),
+                                      load<uint32_t>(at_ + 5, swap_),
                                       load<uint32_t>(at_ + 9, swap_));
     at_ += 13;
     return true;
@@ -329,8 +346,8 @@ class PlyReader {
     const size_t count = data_.mesh.positions.size();
     for (const glm::uvec3& t : data_.mesh.triangles)
       if (std::max({t.x, t.y, t.z}) >= count)
-        fail("a face has the index " + std::to_string(std::max({t.x, t.y, t.z})) + ", but there are " +
-             std::to_string(count) + " vertices");
+        fail("a face has the index " + std::to_string(std::max({t.x, t.y, t.z})) +
+             ", but there are " + std::to_string(count) + " vertices");
   }
 
   const char* at_;

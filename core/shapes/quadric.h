@@ -1,6 +1,6 @@
-// Surfaces given by a formula over two parameters in [0,1]^2: sphere, disk, cylinder. All arithmetic
-// is in double and in the shape's own space, so that hits far away and transforms that stretch stay
-// exact to the rounding of the result; points are recomputed from their parameters.
+// Surfaces given by a formula over two parameters in [0,1]^2: sphere, disk, cylinder. All
+// arithmetic is in double and in the shape's own space, so that hits far away and transforms that
+// stretch stay exact to the rounding of the result; points are recomputed from their parameters.
 #pragma once
 
 #include <mutex>

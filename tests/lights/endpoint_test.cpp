@@ -1,5 +1,5 @@
-// Every light and camera as an endpoint: what emit(), toward(), evaluate() and pdf_toward() say of the
-// same ray is the same, and both ways of finding a receiver carry the same flux to it.
+// Every light and camera as an endpoint: what emit(), toward(), evaluate() and pdf_toward() say of
+// the same ray is the same, and both ways of finding a receiver carry the same flux to it.
 #include <gtest/gtest.h>
 
 #include "core/base/frame.h"
@@ -43,10 +43,10 @@ std::string environment_file() {
 
 Case light(const char* name, const std::string& text) {
   return {name, [text]() -> std::shared_ptr<Endpoint> {
-    const auto made = make_light(text);
-    made->prepare({vec3(0.f), 4.f});
-    return made;
-  }};
+            const auto made = make_light(text);
+            made->prepare({vec3(0.f), 4.f});
+            return made;
+          }};
 }
 Case camera(const char* name, const std::string& text) {
   return {name, [text]() -> std::shared_ptr<Endpoint> { return make_camera(text, frame()); }, true};
@@ -57,19 +57,27 @@ std::vector<Case> cases() {
   const std::string both = "AreaLightSource \"diffuse\" \"bool twosided\" true ";
   return {
       light("Point", "LightSource \"point\" \"point3 from\" [1 2 1] \"float scale\" 3"),
-      light("Spot", "LightSource \"spot\" \"point3 from\" [1 2 1] \"point3 to\" [0.3 0 0]"
-                    "\"float coneangle\" 40 \"float conedeltaangle\" 25"),
-      light("SpotHard", "LightSource \"spot\" \"point3 from\" [1 2 1] \"point3 to\" [0 0 0]"
-                        "\"float conedeltaangle\" 0"),
+      light("Spot",
+            "LightSource \"spot\" \"point3 from\" [1 2 1] \"point3 to\" [0.3 0 0]"
+            "\"float coneangle\" 40 \"float conedeltaangle\" 25"),
+      light("SpotHard",
+            "LightSource \"spot\" \"point3 from\" [1 2 1] \"point3 to\" [0 0 0]"
+            "\"float conedeltaangle\" 0"),
       light("Distant", "LightSource \"distant\" \"point3 from\" [1 2 3] \"rgb L\" [3 2 1]"),
       light("Constant", "LightSource \"infinite\" \"rgb L\" [1 2 3]"),
-      {"Image", [] {
+      {"Image",
+       [] {
          return light("", "Rotate 50 1 2 3 LightSource \"infinite\" \"string filename\" \"" +
-                              environment_file() + "\"").make();
+                              environment_file() + "\"")
+             .make();
        }},
-      {"ImageStretched", [] {
-         return light("", "Rotate 50 1 2 3 Scale -1 2 1 LightSource \"infinite\" \"string filename\""
-                          "\"" + environment_file() + "\"").make();
+      {"ImageStretched",
+       [] {
+         return light("",
+                      "Rotate 50 1 2 3 Scale -1 2 1 LightSource \"infinite\" \"string filename\""
+                      "\"" +
+                          environment_file() + "\"")
+             .make();
        }},
       light("SphereLight", area + "Translate 2 0 1 Shape \"sphere\" \"float radius\" 0.7"),
       light("EllipsoidLight", area + "Translate 2 0 1 Scale 1 -0.5 0.3 Shape \"sphere\""),
@@ -81,14 +89,17 @@ std::vector<Case> cases() {
       light("PatchLight", area + "Shape \"bilinearmesh\""
                                  "\"point3 P\" [-1 2 -1  1 2 -1  -1 2 1  1 2.9 1]"),
       camera("Pinhole", "LookAt 1 1.5 1 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 70"),
-      camera("ThinLens", "LookAt 1 1.5 1 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 70"
-                         "\"float lensradius\" 0.3 \"float focaldistance\" 1.7"),
-      camera("ScaledLens", "Scale -0.5 0.7 0.9 LookAt 1 1.5 1 0 0 0 0 1 0 Camera \"perspective\""
-                           "\"float lensradius\" 0.3 \"float focaldistance\" 1.7"
-                           "\"float screenwindow\" [-1 1.5 -0.7 1]"),
+      camera("ThinLens",
+             "LookAt 1 1.5 1 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 70"
+             "\"float lensradius\" 0.3 \"float focaldistance\" 1.7"),
+      camera("ScaledLens",
+             "Scale -0.5 0.7 0.9 LookAt 1 1.5 1 0 0 0 0 1 0 Camera \"perspective\""
+             "\"float lensradius\" 0.3 \"float focaldistance\" 1.7"
+             "\"float screenwindow\" [-1 1.5 -0.7 1]"),
       camera("Parallel", "LookAt 1 1.5 1 0 0 0 0 1 0 Camera \"orthographic\""),
-      camera("ParallelScaled", "Scale -0.5 0.7 0.9 LookAt 1 1.5 1 0 0 0 0 1 0"
-                               " Camera \"orthographic\" \"float frameaspectratio\" 2")};
+      camera("ParallelScaled",
+             "Scale -0.5 0.7 0.9 LookAt 1 1.5 1 0 0 0 0 1 0"
+             " Camera \"orthographic\" \"float frameaspectratio\" 2")};
 }
 
 class EndpointTest : public testing::TestWithParam<Case> {
@@ -98,8 +109,7 @@ class EndpointTest : public testing::TestWithParam<Case> {
     const vec2 position = draw2(random);
     const vec2 direction = draw2(random);
     dvec2 d(direction);
-    if (GetParam().camera)
-      d = dvec2(frame().crop_min) + d * dvec2(frame().crop_size());
+    if (GetParam().camera) d = dvec2(frame().crop_min) + d * dvec2(frame().crop_size());
     return endpoint_->emit(position, d);
   }
   std::shared_ptr<Endpoint> endpoint_;
@@ -221,8 +231,8 @@ TEST_P(EmittedDirections, FollowTheirDensity) {
 std::vector<Case> directional_cases() {
   std::vector<Case> chosen;
   for (const Case& c : cases())
-    for (const char* name : {"Point", "Spot", "Constant", "Image", "ImageStretched", "DiskBothSides",
-                             "DiskOneSide"})
+    for (const char* name :
+         {"Point", "Spot", "Constant", "Image", "ImageStretched", "DiskBothSides", "DiskOneSide"})
       if (std::string(name) == c.name) chosen.push_back(c);
   return chosen;
 }

@@ -34,43 +34,66 @@ std::vector<Case> cases() {
       {"SphereReversed", "ReverseOrientation Shape \"sphere\"", {0.f, -2.f, 0.3f}, 4 * pi_d},
       {"SpherePartial",
        "Shape \"sphere\" \"float zmin\" -0.3 \"float zmax\" 0.8 \"float phimax\" 200",
-       {1.f, 2.f, 0.5f}, 200.0 / 180.0 * pi_d * 1.1},
-      {"SphereMoved", "Translate 1 2 3 Rotate 40 1 2 3 Scale 2 2 -2 Shape \"sphere\"",
-       {-3.f, 2.f, 1.f}, 16 * pi_d},
+       {1.f, 2.f, 0.5f},
+       200.0 / 180.0 * pi_d * 1.1},
+      {"SphereMoved",
+       "Translate 1 2 3 Rotate 40 1 2 3 Scale 2 2 -2 Shape \"sphere\"",
+       {-3.f, 2.f, 1.f},
+       16 * pi_d},
       // Oblate spheroid with half axes 2, 2, 1.
-      {"Ellipsoid", "Rotate 30 1 0 0 Scale 2 2 1 Shape \"sphere\"", {3.f, 1.f, 2.f},
+      {"Ellipsoid",
+       "Rotate 30 1 0 0 Scale 2 2 1 Shape \"sphere\"",
+       {3.f, 1.f, 2.f},
        2 * pi_d * 4 * (1 + 0.25 / (std::sqrt(3.0) / 2) * std::atanh(std::sqrt(3.0) / 2))},
-      {"Disk", "Shape \"disk\" \"float radius\" 1.5 \"float height\" 0.5", {0.5f, 0.2f, 2.f},
+      {"Disk",
+       "Shape \"disk\" \"float radius\" 1.5 \"float height\" 0.5",
+       {0.5f, 0.2f, 2.f},
        pi_d * 2.25},
-      {"Ring", "Shape \"disk\" \"float innerradius\" 0.5 \"float phimax\" 250", {0.5f, 0.2f, -1.f},
+      {"Ring",
+       "Shape \"disk\" \"float innerradius\" 0.5 \"float phimax\" 250",
+       {0.5f, 0.2f, -1.f},
        250.0 / 360.0 * pi_d * 0.75},
       {"DiskStretched", "Scale 3 1 1 Shape \"disk\"", {0.5f, 0.2f, -1.f}, 3 * pi_d},
       {"Cylinder", "Shape \"cylinder\"", {2.f, 1.f, 0.5f}, 4 * pi_d},
-      {"CylinderInside", "Shape \"cylinder\" \"float phimax\" 300", {0.2f, 0.1f, 0.f},
+      {"CylinderInside",
+       "Shape \"cylinder\" \"float phimax\" 300",
+       {0.2f, 0.1f, 0.f},
        300.0 / 360.0 * 4 * pi_d},
-      {"CylinderStretched", "Rotate 20 0 1 0 Scale 0.5 2 1 Shape \"cylinder\"", {2.f, 3.f, 0.5f}, 0},
+      {"CylinderStretched",
+       "Rotate 20 0 1 0 Scale 0.5 2 1 Shape \"cylinder\"",
+       {2.f, 3.f, 0.5f},
+       0},
       {"Triangle", "Shape \"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 0 1 0]", {1.f, 1.f, 1.f}, 1},
       {"Mesh", house, {2.f, 1.f, 1.f}, 0},
-      {"PatchRectangle", "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 2 0 0 0 1 0 2 1 0]",
-       {1.f, 1.f, 1.f}, 2},
-      {"PatchPlanar", "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 2 0 0 0.5 1 0 1 1.5 0]",
-       {1.f, 1.f, 1.f}, 0},
+      {"PatchRectangle",
+       "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 2 0 0 0 1 0 2 1 0]",
+       {1.f, 1.f, 1.f},
+       2},
+      {"PatchPlanar",
+       "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 2 0 0 0.5 1 0 1 1.5 0]",
+       {1.f, 1.f, 1.f},
+       0},
       {"PatchCurved",
        "Scale 1 -1 1 Shape \"bilinearmesh\" \"point3 P\" [0 0 0 2 0 1 0 2 1 2 2 0]",
-       {1.f, -1.f, 2.f}, 0},
+       {1.f, -1.f, 2.f},
+       0},
       {"PatchesWithUv",
        "Shape \"bilinearmesh\" \"integer indices\" [0 1 2 3 1 4 3 5]"
        "\"point3 P\" [0 0 0 1 0 0.5 0 1 0.5 1 1 0 2 0 0 2 1 0.7]"
        "\"point2 uv\" [0 0 0.5 0.1 0 1 0.6 1 1 0 1 1]",
-       {1.f, -1.f, 2.f}, 0, 0},
+       {1.f, -1.f, 2.f},
+       0,
+       0},
       {"Patches",
        "Shape \"bilinearmesh\" \"integer indices\" [0 1 2 3 1 4 3 5]"
        "\"point3 P\" [0 0 0 1 0 0.5 0 1 0.5 1 1 0 2 0 0 2 1 0.7]",
-       {1.f, -1.f, 2.f}, 0, 2}};
+       {1.f, -1.f, 2.f},
+       0,
+       2}};
 }
 
-// The surface's own parameters as one square, in which densities have no singularities: elements side
-// by side in x, and within each the coordinates of fill(), a triangle stretched to a square.
+// The surface's own parameters as one square, in which densities have no singularities: elements
+// side by side in x, and within each the coordinates of fill(), a triangle stretched to a square.
 class SurfaceMap {
  public:
   explicit SurfaceMap(const Shape& shape, int patches)
@@ -168,7 +191,9 @@ TEST_P(ShapeSampling, SamplesStateTheirDensity) {
 TEST_P(ShapeSampling, AreaSamplesFollowTheirDensity) {
   if (GetParam().patches == 0) return;  // texture coordinates hide the parameters
   const auto result = chi_square_2d(
-      [&](RandomStream& random) { return std::optional(map_.square(shape_->sample_area(draw2(random)))); },
+      [&](RandomStream& random) {
+        return std::optional(map_.square(shape_->sample_area(draw2(random))));
+      },
       [&](const dvec2& square) {
         const auto point = map_.point(square);
         return static_cast<double>(shape_->pdf_area(point.at)) * point.jacobian;
@@ -188,8 +213,8 @@ TEST_P(ShapeSampling, SamplesTowardFollowTheirDensity) {
       [&](const dvec2& square) {
         const auto point = map_.point(square);
         const float pdf = shape_->pdf_toward(reference_, point.at);
-        const float per_area = area_to_solid_angle(1.f, reference_, point.at.position,
-                                                   point.at.normal);
+        const float per_area =
+            area_to_solid_angle(1.f, reference_, point.at.position, point.at.normal);
         return per_area > 0.f ? pdf / per_area * point.jacobian : 0.0;
       });
   EXPECT_GT(result.p, false_alarm);

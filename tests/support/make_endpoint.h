@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/random.h"
 #include "core/camera.h"
 #include "core/filter.h"
 #include "core/light.h"
