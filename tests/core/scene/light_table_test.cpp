@@ -37,8 +37,7 @@ TEST(LightTable, ProbabilitiesAreMostlyByPower) {
     EXPECT_EQ(choice.probability, table.probability(choice.light));
     found[choice.light] += 1.0 / n;
   }
-  for (const Light* light : table.all())
-    EXPECT_NEAR(found[light], table.probability(light), 3e-5);
+  for (const Light* light : table.all()) EXPECT_NEAR(found[light], table.probability(light), 3e-5);
   EXPECT_EQ(table.choose(0.f).light, &weak);
   EXPECT_EQ(table.choose(one_minus_epsilon).light, &sun);
 }

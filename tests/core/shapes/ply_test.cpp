@@ -150,7 +150,8 @@ TEST(Ply, DamagedFilesDoNotCrash) {
 
 TEST(Ply, WhatIsWrongIsSaid) {
   const std::string head = "ply\nformat ascii 1.0\n";
-  const std::string vertex = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string vertex =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
   const std::string points = "0 0 0 1 0 0 0 1 0\n";
   EXPECT_EQ(error(head + vertex + face + "end_header\n" + points + "3 0 1 2"), "");
@@ -166,12 +167,15 @@ TEST(Ply, WhatIsWrongIsSaid) {
   says(head + vertex + face + "end_header\n" + points + "3 0 1 -1", "index");
   says(head + vertex + face + "end_header\n" + points + "2 0 1", "2 vertices");
   says(head + vertex + face + "end_header\n" + points + "3 0 x 1", "not a number");
-  says(head + "element vertex 3\nproperty float x\nproperty float z\n" + face + "end_header\n" + points,
+  says(head + "element vertex 3\nproperty float x\nproperty float z\n" + face + "end_header\n" +
+           points,
        "lack x, y or z");
   says(head + "element vertex 3\nproperty real x\n" + face + "end_header\n", "bad header line");
-  says("ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\n"
-       "property float y\nproperty float z\n" + face + "end_header\nabc",
-       "ends within its 99999999999 elements");
+  says(
+      "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\n"
+      "property float y\nproperty float z\n" +
+          face + "end_header\nabc",
+      "ends within its 99999999999 elements");
 }
 
 }  // namespace
