@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <span>
 
-#include "core/base/log.h"
+#include "core/base/error.h"
 #include "core/image/encoding.h"
 #include "core/image/image_file.h"
 #include "core/plugin/registry.h"

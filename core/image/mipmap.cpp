@@ -223,8 +223,9 @@ T Mipmap<T>::bilinear(size_t index, const vec2& st, TextureWrap wrap) const {
 template <typename T>
 float Mipmap<T>::level_of(float width) const {
   const auto size = static_cast<float>(std::max(levels_[0].width, levels_[0].height));
-  const float level = std::log2(std::max(width * size, 1.f));
-  return std::min(level, static_cast<float>(levels_.size() - 1));
+  const auto last = static_cast<float>(levels_.size() - 1);
+  if (!std::isfinite(width * size)) return last;
+  return std::min(std::log2(std::max(width * size, 1.f)), last);
 }
 
 template <typename T>
@@ -246,7 +247,8 @@ T Mipmap<T>::ewa(const vec2& st, vec2 d0, vec2 d1, TextureWrap wrap) const {
     d1 *= longer / (shorter * most_anisotropy);
     shorter = longer / most_anisotropy;
   }
-  if (!(shorter > 0.f)) return trilinear(st, longer, wrap);
+  // Overflow and what is not a number end at the coarsest level.
+  if (!(shorter > 0.f) || !std::isfinite(longer)) return trilinear(st, longer, wrap);
   const float level = level_of(shorter);
   const auto low = static_cast<size_t>(level);
   const float fraction = level - static_cast<float>(low);

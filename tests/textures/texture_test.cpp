@@ -222,6 +222,8 @@ TEST_F(ImageMapTest, WideFootprintsSeeTheMean) {
     EXPECT_NEAR(map->evaluate(hit).x, mean, 0.01) << filter;
     hit.footprint = 1e20f;
     EXPECT_NEAR(map->evaluate(hit).x, mean, 0.01) << filter;
+    hit.footprint = infinity;
+    EXPECT_NEAR(map->evaluate(hit).x, mean, 0.01) << filter;
     hit.dpdv = {0.f, 1e-6f, 0.f};
     hit.footprint = 0.3f;
     EXPECT_TRUE(is_valid(map->evaluate(hit))) << filter;
