@@ -1,6 +1,7 @@
 // pssmlt render: scene in, pictures out.
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <unistd.h>
 
@@ -57,8 +58,8 @@ void prepare_outputs(RenderOptions& o, const BuiltScene& scene) {
   }
   for (const std::string& path : {o.render.checkpoint, o.json}) {
     if (path.empty()) continue;
+    const bool fresh = !std::filesystem::exists(path);
     std::ofstream probe(path, std::ios::app);  // does not touch what is there
-    const bool fresh = probe && probe.tellp() == 0;
     if (!probe) throw Error("cannot write \"" + path + "\"");
     probe.close();
     if (fresh) std::remove(path.c_str());

@@ -47,7 +47,8 @@ void add_scene_options(CLI::App& app, RenderOptions& o, RawOptions& raw) {
   app.add_option("--crop", raw.crop, "window x0,x1,y0,y1 [pixels], upper ends exclusive");
   app.add_flag("--honour-clamp", o.build.honour_clamp,
                "apply the film's maxcomponentvalue to every sample");
-  app.add_option("--seed", raw.seed, "seed of all random numbers (the scene's, else 0)");
+  app.add_option("--seed", raw.seed, "seed of all random numbers (the scene's, else 0)")
+      ->check(CLI::NonNegativeNumber);
 }
 
 void add_budget_options(CLI::App& app, RenderOptions& o, RawOptions& raw) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/color/color_warnings.h"
 #include "core/plugin/registry.h"
 #include "core/scene/accel.h"
 #include "core/scene/builder_film.h"
@@ -322,6 +323,7 @@ BuiltScene SceneBuilder::build() {
   finish_lights();
   finish_features();
   finish_hashes(settings);
+  for (std::string& line : take_color_warnings()) built_.log.push_back(std::move(line));
   for (const Layer& layer : built_.layers) layer.integrator->prepare(*scene_);
   scene_->features_.load_seconds = seconds_since(start) - scene_->features_.accel_seconds;
   built_.scene = std::move(scene_);

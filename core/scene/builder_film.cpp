@@ -8,6 +8,8 @@ namespace {
 
 // More pixels than this need more memory for their sums than machines have.
 constexpr double max_pixels = 4.0e8;
+// Pixel coordinates are ints, with room for the filter around them.
+constexpr double max_side = 0x1p30;
 
 // pbrt's crop window in normalised coordinates to pixels.
 void crop_by_fractions(const std::vector<float>& window, RasterFrame& frame,
@@ -48,7 +50,11 @@ void read_size(Parameters& film, const BuildOptions& options, RasterFrame& frame
               std::to_string(size.y));
   }
   if (!(options.scale > 0.f)) throw Error("--scale must be positive");
-  size = glm::max(ivec2(1), ivec2(glm::round(vec2(size) * options.scale)));
+  const dvec2 scaled = glm::round(dvec2(size) * static_cast<double>(options.scale));
+  if (!(scaled.x < max_side && scaled.y < max_side)) {
+    film.fail("a picture of this size is too large (at most 2^30 pixels a side)");
+  }
+  size = glm::max(ivec2(1), ivec2(scaled));
   frame.resolution = size;
   frame.crop_min = ivec2(0);
   frame.crop_max = size;

@@ -1,6 +1,7 @@
 #include "core/scene/builder_layers.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 
@@ -10,6 +11,9 @@
 
 namespace pssmlt {
 namespace {
+
+// What "--set" may name.
+constexpr std::array<std::string_view, 3> owners = {"integrator", "sampler", "camera"};
 
 template <typename T>
 T parse_number(const std::string& text, const std::string& assignment) {
@@ -161,7 +165,12 @@ void apply_assignments(const std::vector<std::string>& set, const std::string& o
     if (dot == std::string::npos || equals == std::string::npos || dot > equals) {
       throw Error("--set " + assignment + ": must look like integrator.maxdepth=8");
     }
-    if (assignment.substr(0, dot) != owner) continue;
+    const std::string given = assignment.substr(0, dot);
+    if (std::ranges::find(owners, given) == owners.end()) {
+      throw Error("--set " + assignment + ": \"" + given +
+                  "\" has no parameters to set; integrator, sampler and camera have");
+    }
+    if (given != owner) continue;
     const std::string name = assignment.substr(dot + 1, equals - dot - 1);
     const auto doc = std::ranges::find(docs, name, &ParameterDoc::name);
     if (doc == docs.end()) {

@@ -10,8 +10,8 @@ namespace pssmlt {
 std::vector<Layer> build_layers(const SceneDescription& scene, const BuildOptions& options,
                                 std::string& settings, std::vector<std::string>& log);
 
-// Applies the assignments "owner.name=value" of one owner ("integrator", "sampler", "camera",
-// "film") to a directive; the types come from the parameters that `docs` documents. Throws Error
+// Applies the assignments "owner.name=value" of one owner ("integrator", "sampler" or
+// "camera") to a directive; the types come from the parameters that `docs` documents. Throws Error
 // on unknown names and values that do not fit.
 void apply_assignments(const std::vector<std::string>& set, const std::string& owner,
                        const std::vector<ParameterDoc>& docs, Directive& directive);

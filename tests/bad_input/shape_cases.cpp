@@ -40,9 +40,9 @@ const char* const good_accessor =
 std::vector<BadInput> bad_ply() {
   const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
   return {
-      {"NoPly", world("Shape \"plymesh\" \"string filename\" \"none.ply\""), {"none.ply"}, "4:1"},
+      {"NoPly", world("Shape \"plymesh\" \"string filename\" \"none.ply\""), {"none.ply"}, "4:17"},
       {"NoPlyName", world("Shape \"plymesh\""), {"filename", "missing"}, "4:1"},
-      {"PlyIsFolder", world("Shape \"plymesh\" \"string filename\" \".\""), {"PLY"}, "4:1"},
+      {"PlyIsFolder", world("Shape \"plymesh\" \"string filename\" \".\""), {"directory"}, "4:17"},
       ply("EmptyPly", "", {"mesh.ply"}),
       ply("NotPly", "solid cube\nfacet normal\n", {"not a PLY file"}),
       ply("PlyHeaderCut", "ply\nformat ascii 1.0\nelement vertex 3\n", {"header does not end"}),
@@ -56,7 +56,8 @@ std::vector<BadInput> bad_ply() {
       ply("PlyNegativeIndex", ply_header("ascii", "3", "1") + three + "3 0 1 -1\n", {"index -1"}),
       ply("PlyTwoCorners", ply_header("ascii", "3", "1") + three + "2 0 1\n", {"2 vertices"}),
       ply("PlyNaN", ply_header("ascii", "3", "1") + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", {"finite"}),
-      ply("PlyWord", ply_header("ascii", "3", "1") + "0 0 zero\n", {"zero", "not a number"}),
+      ply("PlyWord", ply_header("ascii", "3", "1") + "0 0 zero\n1 0 0\n0 1 0\n3 0 1 2\n",
+          {"zero", "not a number"}),
   };
 }
 
@@ -92,14 +93,14 @@ std::vector<BadInput> bad_shapes() {
   std::vector<BadInput> all = {
       {"NoRadius", world("Shape \"sphere\" \"float radius\" 0"), {"radius", "positive"}, "4:16"},
       {"NegativeRadius", world("Shape \"disk\" \"float radius\" -1"), {"radius", "positive"}, "4:14"},
-      {"NoSphereLeft", world("Shape \"sphere\" \"float zmin\" .5 \"float zmax\" .1"), {"zmin"}},
+      {"NoSphereLeft", world("Shape \"sphere\" \"float zmin\" 2 \"float zmax\" 3"), {"zmin"}},
       {"IndexTooLarge", triangles("0 1 3", three), {"index 3", "3 vertices"}, "4:22"},
       {"IndexNegative", triangles("0 1 -1", three), {"-1", "negative"}, "4:22"},
       {"IndexOdd", triangles("0 1", three), {"multiple of three"}, "4:22"},
       {"NoVertices", world("Shape \"trianglemesh\""), {"\"P\"", "missing"}, "4:1"},
       {"NormalsTooFew",
        world("Shape \"trianglemesh\" \"point3 P\" [" + three + "] \"normal N\" [0 0 1]"),
-       {"1", "3 vertices"}, "4:52"},
+       {"1", "3 vertices"}, "4:53"},
       {"VertexOutOfRange", triangles("0 1 2", "0 0 0 1 0 0 0 1e38 0") + "Scale 1 100 1\n" +
                                "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1e38 0]\n",
        {"range of single precision"}, "6:22"},
