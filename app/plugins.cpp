@@ -100,6 +100,9 @@ int run_plugins(const Arguments& arguments) {
     markdown ? print_markdown(kind, name) : print_plain(kind, name);
     return 0;
   }
+  if (markdown && kind.empty()) {
+    print("# Plugins\n\nMade from the code by `pssmlt plugins --markdown`.\n");
+  }
   for (const std::string& k : kind.empty() ? plugin_kinds() : std::vector{kind}) {
     print_kind(k, markdown);
   }
