@@ -51,7 +51,7 @@ struct BuiltScene {
   // Power of two near the scene's mean radiance: the film accumulates value / radiance_scale and
   // multiplies it back on output, so that its fixed-point range fits every scene.
   double radiance_scale = 1.0;
-  // Film's exposuretime * iso / 100: the written picture is radiance times this.
+  // Seconds that the shutter is open * iso / 100: the written picture is radiance times this.
   double exposure = 1.0;
   std::optional<uint64_t> seed;  // Option "seed" of the scene
   uint64_t scene_hash = 0;       // of the scene's text

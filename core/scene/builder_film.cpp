@@ -60,14 +60,26 @@ void read_size(Parameters& film, const BuildOptions& options, RasterFrame& frame
   frame.crop_max = size;
 }
 
-void read_sensor(Parameters& film, FilmDirective& settings, std::vector<std::string>& log) {
+// How long the camera's shutter is open [s]; the camera checks the parameters' types.
+float shutter_time(const ParameterSet& camera, const Location& where) {
+  float open = 0.f, close = 1.f;
+  for (const Parameter& p : camera) {
+    if (p.floats.size() != 1) continue;
+    if (p.name == "shutteropen") open = p.floats[0];
+    if (p.name == "shutterclose") close = p.floats[0];
+  }
+  if (!(close > open)) throw Error(where, "the camera's shutter closes before it opens");
+  return close - open;
+}
+
+void read_sensor(Parameters& film, float shutter_seconds, FilmDirective& settings,
+                 std::vector<std::string>& log) {
   const std::string sensor = film.text("sensor", "cie1931", "response of the sensor");
   if (sensor != "cie1931") {
     film.fail("sensor", "sensor \"" + sensor + "\" is not supported yet (only \"cie1931\")");
   }
   const float iso = film.number("iso", 100.f, "", "film speed; the picture scales with iso / 100");
-  const float exposure = film.number("exposuretime", 1.f, "s", "exposure; the picture scales");
-  settings.exposure = static_cast<double>(iso) * static_cast<double>(exposure) / 100.0;
+  settings.exposure = static_cast<double>(iso) * static_cast<double>(shutter_seconds) / 100.0;
   if (film.number("whitebalance", 0.f, "K", "white balance, 0: none") != 0.f) {
     film.fail("whitebalance", "whitebalance is not supported yet");
   }
@@ -103,7 +115,7 @@ FilmDirective read_film(const SceneDescription& scene, const BuildOptions& optio
   }
   check_frame(frame, film);
   settings.output = film.text("filename", "pbrt.exr", "where the picture is written");
-  read_sensor(film, settings, log);
+  read_sensor(film, shutter_time(scene.camera.parameters, scene.camera.where), settings, log);
   if (!options.honour_clamp) settings.max_component = infinity;
   film.check_all_read();
   if (scene.color_space != "srgb") {
