@@ -1,0 +1,102 @@
+// Every integrator under every sampler renders the pictures that are known in closed form, wherever
+// its mask says that it sees all the light there is.
+//
+// False alarms: below 10^-6 for each test. Power: 0.99 against an error of 2 %, computed from the
+// errors measured and asserted.
+#include <gtest/gtest.h>
+
+#include "tests/correctness/classes.h"
+#include "tests/correctness/closed_forms.h"
+#include "tests/support/agreement.h"
+
+namespace pssmlt::test {
+namespace {
+
+constexpr int renders = 64;
+constexpr double false_alarm = 2e-7;  // of the pictures of one sampler
+constexpr double rounding = 2e-4;     // relative; floats, and colours that are given as decimals
+
+struct Case {
+  ClosedForm form;
+  std::string integrator;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.form.name << " by " << c.integrator; }
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const ClosedForm& form : closed_forms()) {
+    for (const std::string& integrator : integrators()) all.push_back({form, integrator});
+  }
+  return all;
+}
+
+// Is every class of paths that brings light into the picture seen?
+bool sees_all(const Case& c) {
+  const BuiltScene built = build_text({.scene = c.form.scene, .integrator = c.integrator});
+  const SceneFeatures& features = built.scene->features();
+  const PathExpression mask(both(built.layers.front().integrator->sees(), c.form.classes));
+  for (const std::string& path : all_classes(c.form.max_depth)) {
+    const PathExpression one(path);
+    const auto apart = [&](const PathExpression& other) {
+      return PathExpression::disjoint(one, other, features, 0, c.form.max_depth);
+    };
+    if (!apart(PathExpression(c.form.classes)) && apart(mask)) return false;
+  }
+  return true;
+}
+
+void expect_values(const Blocks& blocks, const ClosedForm& form, const std::string& what) {
+  const double limit =
+      student_limit(false_alarm / static_cast<double>(form.values.size()), renders - 1);
+  for (size_t i = 0; i < form.values.size(); ++i) {
+    const Estimate& e = blocks.estimates[i];
+    const double expected = form.values[i];
+    EXPECT_LE(std::abs(e.mean - expected), std::max(limit * e.error(), rounding * expected))
+        << what << ", part " << i
+        << fmt::format(": {:.6g} +- {:.2g} is not {:.6g}", e.mean, e.error(), expected);
+    EXPECT_LE((limit + 2.3263) * e.error(), .02 * expected) << what << ": too noisy";
+    if (form.half_percent) {
+      EXPECT_LE(std::abs(e.mean - expected), .005 * expected) << what;
+      EXPECT_LE(limit * e.error(), .005 * expected) << what << ": false alarms";
+    }
+  }
+}
+
+class ClosedForms : public testing::TestWithParam<Case> {};
+
+TEST_P(ClosedForms, UnderEverySampler) {
+  const Case& c = GetParam();
+  if (!sees_all(c)) GTEST_SKIP() << c.integrator << " does not see " << c.form.classes;
+  const double goal = c.form.half_percent ? .00065 : .0019;
+  for (const std::string& sampler : samplers()) {
+    Job job{.scene = c.form.scene, .integrator = c.integrator, .sampler = sampler};
+    job.set = {"integrator.paths=" + c.form.classes};
+    job.spp = 64;
+    const int edge = c.form.values.size() == 1 ? 0 : 4;
+    const Blocks blocks = render_to_precision(job, renders, edge, {goal, goal}, 16384);
+    expect_values(blocks, c.form, c.form.name + ": " + c.integrator + " under " + sampler);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ClosedForms, testing::ValuesIn(cases()), [](const auto& test) {
+  return test.param.form.name + "_" + test.param.integrator;
+});
+
+TEST(ClosedForms, FourFifthsOfThePairsRun) {
+  const std::vector<Case> all = cases();
+  const auto run = static_cast<size_t>(std::count_if(all.begin(), all.end(), sees_all));
+  EXPECT_GE(static_cast<double>(run), .8 * static_cast<double>(all.size()));
+}
+
+TEST(ClosedForms, SingleScatteringGainsNoEnergy) {
+  for (const double alpha : {.1, .3, .5, 1.0}) {
+    for (const double cosine : {.2, .5, 1.0}) {
+      const double albedo = ggx_albedo(alpha, cosine);
+      EXPECT_GT(albedo, .3);
+      EXPECT_LE(albedo, 1.0 + 1e-3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pssmlt::test
