@@ -73,13 +73,10 @@ void Walker::fill(Stream stream, uint32_t index, NumberBlock& block) {
 
 void Walker::move(const NumberBlock& from, bool film, bool rest, const RandomBlock& bits,
                   NumberBlock& block) const {
-  block = from;
-  if (film) {
-    block[0] = settings_.film_x.step(from[0], bits[0]);
-    block[1] = settings_.film_y.step(from[1], bits[1]);
-  }
-  if (!rest) return;
-  for (size_t i = film ? 2 : 0; i < 4; ++i) block[i] = settings_.kernel.step(from[i], bits[i]);
+  block = rest ? settings_.kernel.step(from, bits) : from;
+  if (!film) return;
+  block[0] = settings_.film_x.step(from[0], bits[0]);
+  block[1] = settings_.film_y.step(from[1], bits[1]);
 }
 
 Transition Walker::decide(double proposed_value) {
