@@ -120,7 +120,7 @@ std::vector<BadInput> poor_scenes() {
       poor("Nothing", small + "WorldBegin", {"no light"}),
       poor("DarkUnderChains", small + "Sampler \"pssmlt\" WorldBegin Shape \"sphere\"", {"black"}),
       poor("BlackLight", world("LightSource \"point\" \"rgb I\" [0 0 0]"), {}),
-      poor("NegativeLight", world("LightSource \"point\" \"rgb I\" [-1 2 3]"), {"negative"}),
+      poor("NegativeLight", world("LightSource \"point\" \"rgb I\" [-1 2 3]"), {"clipped"}),
       poor("LampWithoutArea", world("AreaLightSource \"diffuse\"\n" + flat), {}),
       poor("FlatTriangle", world(flat), {}),
       poor("FlatPatch", world("Shape \"bilinearmesh\" \"point3 P\" [0 0 0 0 0 0 0 0 0 0 0 0]"), {}),
