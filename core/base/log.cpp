@@ -21,7 +21,7 @@ spdlog::logger& logger() {
 }  // namespace
 
 void set_log_level(LogLevel level) {
-  logger().set_level(level == LogLevel::quiet     ? spdlog::level::err
+  logger().set_level(level == LogLevel::quiet     ? spdlog::level::warn
                      : level == LogLevel::verbose ? spdlog::level::debug
                                                   : spdlog::level::info);
 }

@@ -10,25 +10,16 @@ namespace pssmlt {
 namespace {
 
 constexpr int most_blocks = 1024;
-// Carries are folded long before 2^31 values can have met in one pixel.
-constexpr double fold_after_samples = 0x1p24;
 
 double luminance_of(const dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 }  // namespace
 
-BlockGrid::BlockGrid(const ivec2& size) {
+BlockGrid::BlockGrid(const ivec2& size) : width_(static_cast<uint32_t>(size.x)) {
   const auto count = [&](int n) { return (n + edge_ - 1) / edge_; };
-  while (int64_t{count(size.x)} * count(size.y) > most_blocks) edge_ *= 2;
+  while (int64_t{count(size.x)} * count(size.y) > most_blocks) edge_ = 1 << ++shift_;
   across_ = count(size.x);
   down_ = count(size.y);
-  block_of_.resize(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
-  size_t at = 0;
-  for (int y = 0; y < size.y; ++y) {
-    for (int x = 0; x < size.x; ++x) {
-      block_of_[at++] = static_cast<uint16_t>(y / edge_ * across_ + x / edge_);
-    }
-  }
 }
 
 Film::Film(FilmSettings settings) : settings_(std::move(settings)), grid_(settings_.size) {
@@ -49,7 +40,7 @@ Film::Pixels& Film::Slot::make(Film& film) {
   const std::lock_guard lock(film.making_);
   if (Pixels* made = get()) return *made;
   owner_ = std::make_unique<Pixels>(static_cast<size_t>(film.pixels()));
-  film.bytes_ += owner_->size() * sizeof(FixedRgb);
+  film.bytes_ += owner_->low.size() * 2 * sizeof(uint64_t);
   pixels_.store(owner_.get(), std::memory_order_release);
   return *owner_;
 }
@@ -65,14 +56,34 @@ size_t Film::split_slot(SplitKind kind, int index, int layer, int plane) const {
 }
 
 void Film::add_to(Pixels& pixels, int pixel, const dvec3& value) {
-  FixedRgb& sums = pixels[static_cast<size_t>(pixel)];
-  for (int c = 0; c < 3; ++c) sums.channel[c].add_atomic(to_fixed(value[c]));
+  const size_t first = static_cast<size_t>(pixel) * 3;
+  for (size_t c = 0; c < 3; ++c) {
+    add_fixed_atomic(pixels.low[first + c], pixels.high[first + c],
+                     to_fixed(value[static_cast<int>(c)]));
+  }
+}
+
+dvec3 Film::Pixels::value(int pixel) const {
+  const size_t first = static_cast<size_t>(pixel) * 3;
+  dvec3 result;
+  for (size_t c = 0; c < 3; ++c) {
+    result[static_cast<int>(c)] = to_double({high[first + c], low[first + c]});
+  }
+  return result;
 }
 
 void Film::add(int layer, int plane, int half, int pixel, const dvec3& value) {
   Slot& s = slots_[slot(layer, plane, half)];
   Pixels* const pixels = s.get();
   add_to(pixels != nullptr ? *pixels : s.make(*this), pixel, value);
+}
+
+void Film::prefetch(int layer, int plane, int half, int pixel) const {
+  const Pixels* const pixels = slots_[slot(layer, plane, half)].get();
+  if (pixels == nullptr) return;
+  const size_t first = static_cast<size_t>(pixel) * 3;
+  __builtin_prefetch(&pixels->low[first], 1);
+  __builtin_prefetch(&pixels->low[first + 2], 1);  // may lie in the next line
 }
 
 void Film::add_split(SplitKind kind, int index, int layer, int plane, int pixel,
@@ -94,7 +105,7 @@ BlockSums Film::make_block_sums() const {
   return sums;
 }
 
-void Film::end_round(const std::vector<BlockSums*>& threads, double samples) {
+void Film::end_round(const std::vector<BlockSums*>& threads) {
   const auto blocks = static_cast<size_t>(grid_.count());
   for (BlockSums* const thread : threads) {
     for (size_t row = 0; row < thread->rows_.size(); ++row) {
@@ -108,32 +119,11 @@ void Film::end_round(const std::vector<BlockSums*>& threads, double samples) {
       }
     }
   }
-  samples_since_fold_ += samples;
-  if (samples_since_fold_ >= fold_after_samples) fold();
-}
-
-void Film::fold() {
-  const auto fold_slots = [](std::vector<Slot>& slots) {
-    for (Slot& s : slots) {
-      if (s.get() == nullptr) continue;
-      for (FixedRgb& p : *s.get()) {
-        for (FixedSum& c : p.channel) c.fold();
-      }
-    }
-  };
-  fold_slots(slots_);
-  for (auto& slots : split_slots_) fold_slots(slots);
-  for (auto& row : block_rows_) {
-    for (FixedSum& s : row) s.fold();
-  }
-  samples_since_fold_ = 0.0;
 }
 
 dvec3 Film::value(int layer, int plane, int half, int pixel) const {
   const Pixels* const pixels = slots_[slot(layer, plane, half)].get();
-  if (pixels == nullptr) return dvec3(0.0);
-  const FixedRgb& p = (*pixels)[static_cast<size_t>(pixel)];
-  return {p.channel[0].value(), p.channel[1].value(), p.channel[2].value()};
+  return pixels == nullptr ? dvec3(0.0) : pixels->value(pixel);
 }
 
 bool Film::used(int layer, int plane, int half) const {
@@ -143,9 +133,7 @@ bool Film::used(int layer, int plane, int half) const {
 dvec3 Film::split_value(SplitKind kind, int index, int layer, int plane, int pixel) const {
   const auto& slots = split_slots_[static_cast<size_t>(kind)];
   const Pixels* const pixels = slots[split_slot(kind, index, layer, plane)].get();
-  if (pixels == nullptr) return dvec3(0.0);
-  const FixedRgb& p = (*pixels)[static_cast<size_t>(pixel)];
-  return {p.channel[0].value(), p.channel[1].value(), p.channel[2].value()};
+  return pixels == nullptr ? dvec3(0.0) : pixels->value(pixel);
 }
 
 std::vector<int> Film::split_indices(SplitKind kind) const {
@@ -169,7 +157,12 @@ double Film::block_sum(int layer, int plane, int group, int block) const {
 void Film::save_slots(Archive& archive, const std::vector<Slot>& slots) {
   for (const Slot& s : slots) {
     archive.value<uint8_t>(s.get() != nullptr ? 1 : 0);
-    if (s.get() != nullptr) archive.array(*s.get());
+    if (s.get() == nullptr) continue;
+    const Pixels& pixels = *s.get();
+    archive.array(pixels.low);
+    const bool high = std::any_of(pixels.high.begin(), pixels.high.end(),
+                                  [](int64_t word) { return word != 0; });
+    archive.array(high ? pixels.high : std::vector<int64_t>());
   }
 }
 
@@ -177,8 +170,11 @@ void Film::load_slots(Archive& archive, std::vector<Slot>& slots) {
   for (Slot& s : slots) {
     if (archive.get<uint8_t>() == 0) continue;
     Pixels& pixels = s.make(*this);
-    pixels = archive.get_array<FixedRgb>();
-    if (pixels.size() != static_cast<size_t>(this->pixels())) {
+    const size_t words = pixels.low.size();
+    pixels.low = archive.get_array<uint64_t>();
+    std::vector<int64_t> high = archive.get_array<int64_t>();
+    if (!high.empty()) pixels.high = std::move(high);
+    if (pixels.low.size() != words || pixels.high.size() != words) {
       throw Error("the checkpoint is of another image size");
     }
   }
@@ -188,7 +184,6 @@ void Film::save(Archive& archive) const {
   archive.value(settings_.size);
   archive.array(settings_.planes);
   archive.value(settings_.split);
-  archive.value(samples_since_fold_);
   save_slots(archive, slots_);
   for (const auto& slots : split_slots_) save_slots(archive, slots);
   for (const auto& row : block_rows_) archive.array(row);
@@ -201,7 +196,6 @@ void Film::load(Archive& archive) {
   if (size != settings_.size || planes != settings_.planes || split != settings_.split) {
     throw Error("the checkpoint is of another image size or other layers");
   }
-  samples_since_fold_ = archive.get<double>();
   load_slots(archive, slots_);
   for (auto& slots : split_slots_) load_slots(archive, slots);
   for (auto& row : block_rows_) {
@@ -237,6 +231,7 @@ void UnitSink::deposit(int plane, int group, int pixel, const dvec3& value) {
   if (p.pixel != pixel || p.plane != plane || p.group != group) {
     commit(p);
     p = {pixel, plane, group, dvec3(0.0)};
+    film_.prefetch(unit_.layer, plane, group % 2, pixel);
   }
   p.sum += value;
 }

@@ -195,7 +195,7 @@ void Session::run_round(LayerState& layer) {
   });
   std::vector<BlockSums*> sums;
   for (BlockSums& s : block_sums_) sums.push_back(&s);
-  film_.end_round(sums, samples);
+  film_.end_round(sums);
   ++layer.rounds;
   layer.samples += samples;
   round_seconds_ = std::chrono::duration<double>(Clock::now() - start).count();

@@ -39,7 +39,7 @@ TEST(Film, MemoryComesWithTheFirstSplat) {
   Film film(settings(5, 3));
   EXPECT_EQ(film.bytes(), 0u);
   film.add(1, 1, 0, 7, dvec3(1.0, 2.0, 3.0));
-  EXPECT_EQ(film.bytes(), 15u * sizeof(FixedRgb));
+  EXPECT_EQ(film.bytes(), 15u * 6u * sizeof(uint64_t));
   EXPECT_EQ(film.value(1, 1, 0, 7), dvec3(1.0, 2.0, 3.0));
   EXPECT_EQ(film.value(0, 0, 0, 7), dvec3(0.0));
   EXPECT_FALSE(film.used(1, 1, 1));
@@ -55,7 +55,7 @@ TEST(Film, SinkAddsCameraAndLightSplats) {
   splats.light(dvec2(-3.0, 1.0), Rgb(100.f), {});  // outside
   for (int i = 0; i < 3; ++i) sink.add(1, splats, {8, 2.f}, 3.0, 5);
   sink.flush();
-  film.end_round({&blocks}, 3.0);
+  film.end_round({&blocks});
   // The group is odd: half 1. Factor 0.5, weight 3, credit 2.
   EXPECT_EQ(film.value(1, 1, 1, 8), 9.0 * dvec3(1.0, 0.5, 0.25));
   EXPECT_EQ(film.value(1, 1, 1, 34), 4.5 * dvec3(2.0));
@@ -129,7 +129,7 @@ TEST(Film, SavesAndLoads) {
     sink.add(0, camera_splat(Rgb(0.1f * static_cast<float>(i))), {i % 36, 1.f}, 1.0, i % 32);
   }
   sink.flush();
-  film.end_round({&blocks}, 100.0);
+  film.end_round({&blocks});
   Archive archive;
   film.save(archive);
   Film copy(settings(9, 4));
