@@ -38,7 +38,7 @@ Film "rgb" "integer xresolution" 64 "integer yresolution" 40
 PixelFilter "box"
 LookAt 0 1 -3.6  0 1 0  0 1 0
 Camera "perspective" "float fov" 36 "float lensradius" .12 "float focaldistance" 3.2
-Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 64
+Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -71,7 +71,7 @@ Film "rgb" "integer xresolution" 32 "integer yresolution" 32
 PixelFilter "triangle" "float xradius" 1.5 "float yradius" 1.5
 LookAt 0 2.5 -4  0 .5 0  0 1 0
 Camera "perspective" "float fov" 26
-Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 64
+Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -109,7 +109,7 @@ Film "rgb" "integer xresolution" 40 "integer yresolution" 48
 PixelFilter "mitchell"
 LookAt 0 1.6 -4  0 .6 0  0 1 0
 Camera "perspective" "float fov" 34
-Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 64
+Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -161,7 +161,7 @@ Film "rgb" "integer xresolution" 48 "integer yresolution" 40
 PixelFilter "box"
 LookAt .3 1.2 -3  0 .9 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -1.2 1.2 -1 1 ]
-Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 64
+Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -193,7 +193,7 @@ Film "rgb" "integer xresolution" 32 "integer yresolution" 32
 PixelFilter "gaussian"
 LookAt 0 1 -3.4  0 .9 0  0 1 0
 Camera "perspective" "float fov" 36 "float lensradius" .05 "float focaldistance" 3.4
-Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 64
+Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -234,7 +234,7 @@ Film "rgb" "integer xresolution" 72 "integer yresolution" 56
 PixelFilter "sinc" "float xradius" 2 "float yradius" 2
 LookAt 0 1 -2.9  .1 1 0  0 1 0
 Camera "perspective" "float fov" 45
-Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 64
+Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 5
 WorldBegin

@@ -36,28 +36,6 @@ inline double student_limit(double p, double n) {
 
 inline double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
-// Probability of a larger chi-square with n degrees of freedom (upper regularised gamma function,
-// by its series or Lentz's continued fraction; Press et al. 2007, Numerical Recipes, 6.2).
-inline double chi_square_p(double value, double n) {
-  const double a = 0.5 * n, x = 0.5 * value;
-  if (x <= 0.0) return 1.0;
-  const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
-  if (x < a + 1.0) {
-    double term = 1.0 / a, sum = term;
-    for (double k = a + 1.0; term > sum * 1e-16; k += 1.0) sum += term *= x / k;
-    return 1.0 - front * sum;
-  }
-  double b = x + 1.0 - a, c = 1e300, d = 1.0 / b, h = d;
-  for (int i = 1; i < 10000; ++i) {
-    const double an = -i * (i - a);
-    b += 2.0;
-    d = 1.0 / (an * d + b);
-    c = b + an / c;
-    h *= d * c;
-    if (std::abs(d * c - 1.0) < 1e-15) break;
-  }
-  return front * h;
-}
 
 // Mean and variance of the mean over independent values.
 struct Estimate {
