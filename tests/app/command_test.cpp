@@ -193,7 +193,7 @@ TEST_F(Command, KilledAndResumedGivesTheSameBits) {
   std::mt19937 random(11);
   for (const std::string sampler : {"sobol", "pssmlt"}) {
     std::vector<std::string> common = {scene_, "--size", "24x17", "--sampler", sampler,
-                                       "--integrator", "bdpt", "--spp", "1500", "--quiet"};
+                                       "--integrator", "bdpt", "--spp", "300", "--quiet"};
     if (sampler == "pssmlt") {
       common.insert(common.end(), {"--set", "sampler.bootstrapsamples=2000"});
     }
@@ -203,7 +203,7 @@ TEST_F(Command, KilledAndResumedGivesTheSameBits) {
     };
     const std::string checkpoint = in("c-" + sampler), output = in("a-" + sampler + ".pfm");
     const auto resumable =
-        with({"-o", output, "--checkpoint", checkpoint, "--checkpoint-every", "10ms", "--resume"});
+        with({"-o", output, "--checkpoint", checkpoint, "--checkpoint-every", "30ms", "--resume"});
     for (int kills = 0; kills < 3; ++kills) {
       const pid_t pid = start(resumable);
       // The first run gets as far as a checkpoint, the others to wherever they get.
