@@ -1,9 +1,19 @@
 // Rays and the offset that keeps them from meeting the surface they start on.
 #pragma once
 
+#include <bit>
+
 #include "core/base/math.h"
 
 namespace pssmlt {
+
+// The neighbouring floats of a finite number; std::nextafter is a library call, this is inline.
+inline float next_up(float x) {
+  if (x == 0.f) return std::numeric_limits<float>::denorm_min();
+  const auto bits = std::bit_cast<uint32_t>(x);
+  return std::bit_cast<float>(x > 0.f ? bits + 1u : bits - 1u);
+}
+inline float next_down(float x) { return -next_up(-x); }
 
 struct Ray {
   vec3 origin{0.f};
@@ -20,8 +30,8 @@ inline vec3 offset_origin(const vec3& position, const vec3& error, const vec3& n
   const vec3 offset = glm::dot(direction, ng) < 0.f ? -d * ng : d * ng;
   vec3 p = position + offset;
   for (int i = 0; i < 3; ++i) {
-    if (offset[i] > 0.f) p[i] = std::nextafter(p[i], infinity);
-    if (offset[i] < 0.f) p[i] = std::nextafter(p[i], -infinity);
+    if (offset[i] > 0.f) p[i] = next_up(p[i]);
+    if (offset[i] < 0.f) p[i] = next_down(p[i]);
   }
   return p;
 }

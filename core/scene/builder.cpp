@@ -117,6 +117,9 @@ void SceneBuilder::build_camera() {
   PluginArguments arguments;
   arguments.frame = &scene_->frame_;
   scene_->camera_ = make_plugin<Camera>(found, parameters, arguments);
+  scene_->camera_center_ = scene_->camera_->center();
+  scene_->pixel_spread_ = scene_->camera_->pixel_spread();
+  scene_->parallel_ = scene_->camera_->parallel();
   if (!description_.camera.given()) {
     built_.log.push_back("the scene has no camera: \"" + camera.type + "\" at the origin is used");
   }

@@ -22,12 +22,6 @@ void log_ray(const char* what, const Ray& ray, const std::string& outcome) {
                             outcome));
 }
 
-// Diameter of a pixel at a point [m].
-float footprint_at(const Camera& camera, const vec3& position) {
-  const float spread = camera.pixel_spread();
-  return camera.parallel() ? spread : spread * glm::distance(camera.center(), position);
-}
-
 }  // namespace
 
 RayCounters& ray_counters() { return thread_counters; }
@@ -47,6 +41,10 @@ Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
+float Scene::footprint(const vec3& position) const {
+  return parallel_ ? pixel_spread_ : pixel_spread_ * glm::distance(camera_center_, position);
+}
+
 bool Scene::intersect(const Ray& ray, float u_alpha, Hit& hit) const {
   ++thread_counters.nearest;
   Accel::RawHit raw;
@@ -54,7 +52,7 @@ bool Scene::intersect(const Ray& ray, float u_alpha, Hit& hit) const {
   float travelled = 0.f;
   while (accel_->intersect(rest, raw)) {
     accel_->fill(rest, raw, hit);
-    hit.footprint = footprint_at(*camera_, hit.position);
+    hit.footprint = footprint(hit.position);
     const Texture<float>* const alpha = raw.primitive->alpha.get();
     const float opacity = alpha ? alpha->evaluate(hit) : 1.f;
     if (opacity >= 1.f || u_alpha < opacity) {
@@ -90,7 +88,7 @@ float Scene::visibility(const Ray& ray) const {
     const Texture<float>* const alpha = raw.primitive->alpha.get();
     if (!alpha) return 0.f;
     accel_->fill(rest, raw, hit);
-    hit.footprint = footprint_at(*camera_, hit.position);
+    hit.footprint = footprint(hit.position);
     passed *= 1.f - std::fmin(std::fmax(alpha->evaluate(hit), 0.f), 1.f);
     if (!(passed > 0.f)) return 0.f;
     rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);

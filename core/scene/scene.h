@@ -66,7 +66,14 @@ class Scene {
  private:
   friend class SceneBuilder;
   std::unique_ptr<Accel> accel_;
+  // Diameter of a pixel at a point [m].
+  float footprint(const vec3& position) const;
+
   std::shared_ptr<const Camera> camera_;
+  // What the footprint needs of the camera, which is asked for at every hit.
+  vec3 camera_center_{0.f};
+  float pixel_spread_ = 0.f;
+  bool parallel_ = false;
   RasterFrame frame_;
   std::vector<std::unique_ptr<Primitive>> primitives_;
   std::vector<std::shared_ptr<Light>> light_owners_;
