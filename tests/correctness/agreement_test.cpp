@@ -18,7 +18,7 @@ namespace {
 constexpr int edge = 16;     // of a block [pixels]
 constexpr int renders = 32;  // of each technique
 constexpr Demand demand{2.5e-7, .08, .02};
-constexpr Precision goal{.0065, .0017}, reference_goal{.003, .0009};
+constexpr Precision goal{.0065, .0015}, reference_goal{.003, .0009};
 
 struct Case {
   AgreementScene scene;

@@ -88,16 +88,17 @@ inline double fresnel(double cos_i, double eta) {
 }
 
 inline ClosedForm furnace() {
-  return {"furnace", view("-1 1 -1 1", 1) + R"(
+  return {"furnace", view("-.7 .7 -.7 .7", 1) + R"(
 LightSource "infinite" "rgb L" [ 1 1 1 ]
 Material "diffuse" "rgb reflectance" [ 1 1 1 ]
-Shape "sphere" "float radius" 1.5)", "IDE", 1, {1.0}, true};
+Shape "disk" "float radius" 1)", "IDE", 1, {1.0}, true};
 }
 
 // A disk in the furnace, looked at under an angle.
 inline ClosedForm ggx(const std::string& name, double alpha, double angle) {
   const double cos_o = std::cos(angle * std::numbers::pi / 180.0);
-  return {name, view("-.45 .45 -.45 .45", 1, angle) + R"(
+  const std::string window = fmt::format("{0} {1} -.7 .7", -.7 * cos_o, .7 * cos_o);
+  return {name, view(window, 1, angle) + R"(
 LightSource "infinite" "rgb L" [ 1 1 1 ]
 Material "conductor" "rgb reflectance" [ 1 1 1 ] "bool remaproughness" false
   "float roughness" )" + fmt::format("{}", alpha) + R"(
