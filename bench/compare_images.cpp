@@ -3,6 +3,7 @@
 //   mean           signed, of the mean over the picture
 //   block_median   median over blocks of 16 x 16 pixels (cut at the right and lower edge)
 //   block_p95      95 % quantile over the blocks
+//   relmse         mean over the pixels of (a - b)^2 / (b^2 + 0.01 mean(b)^2)
 // A block's error is |a - b| / max(b, 1 % of the picture's mean), so that black blocks do not
 // divide by zero. TRIM (0.01: the worst 1 %) leaves out that share of the pixels, those where the
 // two differ most, against fireflies of a reference.
@@ -87,13 +88,26 @@ double quantile(std::vector<double> values, double q) {
   return std::lerp(values[low], values[high], at - static_cast<double>(low));
 }
 
+double relative_mse(const Luminances& a, const Luminances& b, const std::vector<char>& kept) {
+  double mean = 0.0, sum = 0.0, count = 0.0;
+  for (const double value : b.values) mean += value / static_cast<double>(b.values.size());
+  for (size_t i = 0; i < a.values.size(); ++i) {
+    if (!kept[i]) continue;
+    const double d = a.values[i] - b.values[i], r = b.values[i];
+    sum += d * d / std::max(r * r + 0.01 * mean * mean, 1e-300);
+    count += 1.0;
+  }
+  return sum / count;
+}
+
 void compare(const std::string& image, const std::string& reference, double trim) {
   const Luminances a = read_luminances(image), b = read_luminances(reference);
   if (a.width != b.width || a.height != b.height) {
     throw Error(fmt::format("{} has {}x{} pixels, {} has {}x{}", image, a.width, a.height,
                             reference, b.width, b.height));
   }
-  const std::vector<Sums> blocks = block_sums(a, b, kept_pixels(a, b, trim));
+  const std::vector<char> kept = kept_pixels(a, b, trim);
+  const std::vector<Sums> blocks = block_sums(a, b, kept);
   Sums all;
   for (const Sums& s : blocks) all = {all.a + s.a, all.b + s.b, all.count + s.count};
   const double floor = 0.01 * all.b / all.count;
@@ -104,9 +118,9 @@ void compare(const std::string& image, const std::string& reference, double trim
   }
   fmt::print(
       "{{\"mean\": {:.6g}, \"block_median\": {:.6g}, \"block_p95\": {:.6g}, "
-      "\"blocks\": {}}}\n",
+      "\"blocks\": {}, \"relmse\": {:.6g}}}\n",
       all.b > 0.0 ? all.a / all.b - 1.0 : all.a, quantile(errors, 0.5), quantile(errors, 0.95),
-      blocks.size());
+      blocks.size(), relative_mse(a, b, kept));
 }
 
 }  // namespace
