@@ -1,5 +1,6 @@
 // The subcommands of the pssmlt command, one file each. They get the arguments after the name and
-// return the exit code: 0 done, 1 failure, 2 bad input or usage, 130 interrupted. Errors are thrown.
+// return the exit code: 0 done, 1 failure, 2 bad input or usage, 130 interrupted. Errors are
+// thrown.
 #pragma once
 
 #include <string>

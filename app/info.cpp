@@ -1,6 +1,6 @@
 // pssmlt info: what a scene contains and what of it costs memory.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
@@ -24,11 +24,15 @@ std::string joined(const std::vector<std::string>& parts) {
 std::string contents(const SceneFeatures& f) {
   std::vector<std::string> parts;
   const std::pair<bool, const char*> features[] = {
-      {f.area_lights, "area lights"},     {f.infinite_lights, "environment light"},
+      {f.area_lights, "area lights"},
+      {f.infinite_lights, "environment light"},
       {f.delta_lights, "point, spot or distant lights"},
-      {f.connectible, "non-specular materials"}, {f.specular, "specular materials"},
-      {f.transmissive, "transmission"},   {f.alpha, "cut-outs"},
-      {f.textures, "textures"},           {f.instances, "instances"},
+      {f.connectible, "non-specular materials"},
+      {f.specular, "specular materials"},
+      {f.transmissive, "transmission"},
+      {f.alpha, "cut-outs"},
+      {f.textures, "textures"},
+      {f.instances, "instances"},
       {f.delta_lens, "pinhole camera"}};
   for (const auto& [present, name] : features) {
     if (present) parts.emplace_back(name);
@@ -42,9 +46,8 @@ void print_layer(const Layer& layer) {
                     layer.name.empty() ? "" : " " + layer.name, layer.integrator_name,
                     layer.sampler_name, layer.sampler->default_spp(),
                     layer.sampler->is_chain() ? "mutations" : "samples"));
-  print(fmt::format("  paths {} with {} to {} bounces; the integrator sees {}",
-                    limits.paths.text(), limits.min_bounces, limits.max_bounces,
-                    layer.integrator->sees()));
+  print(fmt::format("  paths {} with {} to {} bounces; the integrator sees {}", limits.paths.text(),
+                    limits.min_bounces, limits.max_bounces, layer.integrator->sees()));
 }
 
 }  // namespace

@@ -28,9 +28,7 @@ int run(Arguments arguments) {
   }
   if (first == "--version" || first == "version") return pssmlt::run_version();
   static const std::map<std::string, int (*)(const Arguments&)> commands = {
-      {"render", pssmlt::run_render},
-      {"plugins", pssmlt::run_plugins},
-      {"info", pssmlt::run_info}};
+      {"render", pssmlt::run_render}, {"plugins", pssmlt::run_plugins}, {"info", pssmlt::run_info}};
   const auto command = commands.find(first);
   if (command == commands.end()) return pssmlt::run_render(arguments);
   arguments.erase(arguments.begin());

@@ -1,6 +1,6 @@
 // pssmlt plugins: the reference of every plugin's parameters, made by the plugins themselves.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 

@@ -17,8 +17,8 @@ std::string phase_text(const Progress& p) {
 
 std::string text(const Progress& p) {
   if (p.phase != RenderPhase::render) return phase_text(p);
-  std::string line = fmt::format("{:5.1f} %  {} elapsed", 100.0 * p.fraction,
-                                 format_duration(p.elapsed));
+  std::string line =
+      fmt::format("{:5.1f} %  {} elapsed", 100.0 * p.fraction, format_duration(p.elapsed));
   if (p.remaining >= 0.0) line += fmt::format(", {} left", format_duration(p.remaining));
   line += fmt::format("  {}{}/s", format_count(p.samples_per_second),
                       p.chains ? "mutations" : "samples");
@@ -33,7 +33,8 @@ std::string text(const Progress& p) {
 }  // namespace
 
 ProgressDisplay::ProgressDisplay(bool shown)
-    : shown_(shown), terminal_(isatty(STDERR_FILENO) != 0),
+    : shown_(shown),
+      terminal_(isatty(STDERR_FILENO) != 0),
       next_(terminal_ ? 0.0 : line_interval) {}
 
 void ProgressDisplay::show(const Progress& progress) {

@@ -1,9 +1,9 @@
 // pssmlt render: scene in, pictures out.
+#include <unistd.h>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -96,9 +96,9 @@ ImageMetadata metadata(const RenderOptions& o, const BuiltScene& scene, const Re
           {"pssmlt:seed", std::to_string(o.render.seed)},
           {"pssmlt:samples", fmt::format("{:.0f}", r.samples)},
           {"pssmlt:seconds", fmt::format("{:.3f}", r.seconds)},
-          {"pssmlt:error", e.known ? fmt::format("relMSE {:.6g} ({:.6g} to {:.6g})",
-                                                 e.relative_mse, e.low, e.high)
-                                   : "unknown"}};
+          {"pssmlt:error",
+           e.known ? fmt::format("relMSE {:.6g} ({:.6g} to {:.6g})", e.relative_mse, e.low, e.high)
+                   : "unknown"}};
 }
 
 // The images beside the picture that --aux asks for.
@@ -111,8 +111,8 @@ Companions make_companions(const RenderOptions& o, const BuiltScene& scene,
                            const RenderResult& result) {
   Companions c;
   if (wants(o, "albedo") || wants(o, "normal") || wants(o, "depth")) {
-    c.first_hit = render_auxiliary(*scene.scene, *scene.raster_map, o.render.seed,
-                                   o.render.threads);
+    c.first_hit =
+        render_auxiliary(*scene.scene, *scene.raster_map, o.render.seed, o.render.threads);
   }
   if (wants(o, "error") && !result.variance.data.empty()) c.error = error_image(result.variance);
   return c;
@@ -147,8 +147,8 @@ bool write_outputs(const RenderOptions& o, const BuiltScene& scene, const Render
     }
   }
   if (!result.complete) return fine;
-  if (result.half[0].data.empty() && (wants(o, "halves") || wants(o, "variance") ||
-                                      wants(o, "error"))) {
+  if (result.half[0].data.empty() &&
+      (wants(o, "halves") || wants(o, "variance") || wants(o, "error"))) {
     log_warning("halves, variance and error are left out: they need two rounds at least");
   }
   return fine;
@@ -210,9 +210,7 @@ int run_render(const Arguments& arguments) {
   std::optional<RenderOptions> options = parse_render_options(arguments);
   if (!options) return exit_done;
   RenderOptions& o = *options;
-  set_log_level(o.quiet     ? LogLevel::quiet
-                : o.verbose ? LogLevel::verbose
-                            : LogLevel::normal);
+  set_log_level(o.quiet ? LogLevel::quiet : o.verbose ? LogLevel::verbose : LogLevel::normal);
   const BuiltScene scene = load(o);
   if (o.pixel || !o.replay.empty()) return inspect(o, scene);
   prepare_outputs(o, scene);

@@ -67,8 +67,7 @@ void add_budget_options(CLI::App& app, RenderOptions& o, RawOptions& raw) {
 void add_output_options(CLI::App& app, RenderOptions& o, RawOptions& raw) {
   app.add_option("-o,--output", o.outputs, "output (exr, pfm, hdr, png, jpg); may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--aux", raw.aux,
-                 "layers in the EXR: albedo,normal,depth,error,halves,variance");
+  app.add_option("--aux", raw.aux, "layers in the EXR: albedo,normal,depth,error,halves,variance");
   app.add_flag("--per-length", o.render.per_length, "also one image per number of bounces");
   app.add_flag("--per-strategy", o.render.per_strategy,
                "also one image per bidirectional strategy (s, t)");
@@ -141,9 +140,10 @@ double parse_duration(const std::string& text, std::vector<std::string>& notes) 
 }
 
 std::optional<RenderOptions> parse_render_options(const Arguments& arguments) {
-  CLI::App app("Renders a scene. Without a budget, the sampler's default number of samples is made;\n"
-               "of several budgets, the one that is reached first ends the render.",
-               "pssmlt render");
+  CLI::App app(
+      "Renders a scene. Without a budget, the sampler's default number of samples is made;\n"
+      "of several budgets, the one that is reached first ends the render.",
+      "pssmlt render");
   RenderOptions o;
   RawOptions raw;
   add_scene_options(app, o, raw);

@@ -17,12 +17,12 @@ struct RenderOptions {
   RenderSettings render;
   std::optional<uint64_t> seed;
   bool quiet = false, verbose = false;
-  std::string json;                  // file for the statistics; "": none
-  std::string view;                  // OpenColorIO view for 8-bit images
+  std::string json;  // file for the statistics; "": none
+  std::string view;  // OpenColorIO view for 8-bit images
   std::vector<std::string> auxiliary;
-  std::optional<ivec2> pixel;        // print the paths of this pixel
-  std::string replay;                // print this sample
-  std::vector<std::string> notes;    // for the log, e.g. that a bare number was taken as seconds
+  std::optional<ivec2> pixel;      // print the paths of this pixel
+  std::string replay;              // print this sample
+  std::vector<std::string> notes;  // for the log, e.g. that a bare number was taken as seconds
 };
 
 // Throws Error on bad usage. nullopt: help was printed.

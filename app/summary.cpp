@@ -54,11 +54,11 @@ std::string report_text(const json& report) {
 
 std::string layer_text(const json& layer) {
   const std::string name = layer["name"].get<std::string>();
-  std::string text = fmt::format(
-      "{}{} under {}: {:.6g} {} a pixel in {} rounds", name.empty() ? "" : name + ": ",
-      layer["integrator"].get<std::string>(), layer["sampler"].get<std::string>(),
-      layer["samples_per_pixel"].get<double>(),
-      layer["chain"].get<bool>() ? "mutations" : "samples", layer["rounds"].get<int>());
+  std::string text =
+      fmt::format("{}{} under {}: {:.6g} {} a pixel in {} rounds", name.empty() ? "" : name + ": ",
+                  layer["integrator"].get<std::string>(), layer["sampler"].get<std::string>(),
+                  layer["samples_per_pixel"].get<double>(),
+                  layer["chain"].get<bool>() ? "mutations" : "samples", layer["rounds"].get<int>());
   const std::string report = report_text(layer["report"]);
   if (!report.empty()) text += "\n  " + report;
   return text;
@@ -74,9 +74,8 @@ std::string error_text(const json& e) {
     text = "error estimate: unknown (" + e["why"].get<std::string>() + ")";
   }
   if (e.contains("mean")) {
-    text += fmt::format(", mean luminance {:.6g} (95 %: {:.6g} to {:.6g})",
-                        e["mean"].get<double>(), e["mean_interval"][0].get<double>(),
-                        e["mean_interval"][1].get<double>());
+    text += fmt::format(", mean luminance {:.6g} (95 %: {:.6g} to {:.6g})", e["mean"].get<double>(),
+                        e["mean_interval"][0].get<double>(), e["mean_interval"][1].get<double>());
   }
   return text;
 }

@@ -1,11 +1,11 @@
 // pssmlt --version: what this program was built with and what the processor can do.
-#include <CLI/Version.hpp>
 #include <embree3/rtcore_config.h>
 #include <fmt/core.h>
-#include <glm/detail/setup.hpp>
-#include <nlohmann/json.hpp>
 #include <spdlog/version.h>
 #include <tbb/version.h>
+#include <CLI/Version.hpp>
+#include <glm/detail/setup.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <thread>

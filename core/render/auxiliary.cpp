@@ -45,8 +45,7 @@ PixelSums render_pixel(const Scene& scene, const RasterMap& map, uint64_t seed, 
     const double x = (ray % 4 + to_unit_double(a[0])) / 4.0;
     const double y = (ray / 4 + to_unit_double(a[1])) / 4.0;
     const RasterMap::CameraPoint point = map.camera_point_in(pixel, x, y);
-    const auto emission =
-        scene.camera().emit(vec2(to_unit(a[2]), to_unit(a[3])), point.raster);
+    const auto emission = scene.camera().emit(vec2(to_unit(a[2]), to_unit(a[3])), point.raster);
     if (emission) add_ray(scene, *emission, to_unit(b[0]), point.credit.weight, sums);
   }
   return sums;

@@ -115,9 +115,8 @@ std::string read_checkpoint(const std::string& path, const CheckpointIdentity& i
     throw Error("checkpoint \"" + path + "\" comes from a machine of another byte order");
   }
   if (header.version != format_version) {
-    throw Error("checkpoint \"" + path + "\" has format version " +
-                std::to_string(header.version) + ", this program reads version " +
-                std::to_string(format_version));
+    throw Error("checkpoint \"" + path + "\" has format version " + std::to_string(header.version) +
+                ", this program reads version " + std::to_string(format_version));
   }
   std::error_code failed;
   const auto length = std::filesystem::file_size(path, failed);

@@ -19,7 +19,9 @@ std::array<double, 2> half_scales(const std::array<double, group_count>& group) 
 }  // namespace
 
 LayerScales::LayerScales(const Sampler& s, int rounds)
-    : planes(s.planes()), common_variance(s.scale_relative_variance()), chain(s.is_chain()),
+    : planes(s.planes()),
+      common_variance(s.scale_relative_variance()),
+      chain(s.is_chain()),
       sampler(&s) {
   for (int p = 0; p < planes; ++p) {
     auto& scales = total.emplace_back();
@@ -136,10 +138,10 @@ std::vector<SplitImage> Developer::splits(SplitKind kind) const {
       }
       return sum * picture_scale_;
     };
-    const std::string name = kind == SplitKind::length
-                                 ? "length" + std::to_string(index)
-                                 : "s" + std::to_string(index / split_edge) + "t" +
-                                       std::to_string(index % split_edge);
+    const std::string name =
+        kind == SplitKind::length
+            ? "length" + std::to_string(index)
+            : "s" + std::to_string(index / split_edge) + "t" + std::to_string(index % split_edge);
     result.push_back({name, image(value)});
   }
   return result;

@@ -15,10 +15,10 @@ namespace pssmlt {
 struct LayerScales {
   LayerScales(const Sampler& sampler, int rounds);
   int planes = 1;
-  std::vector<std::vector<double>> total;           // [plane][subset]
-  std::vector<std::array<double, 2>> half;          // [plane][half]; 0: the half has nothing yet
+  std::vector<std::vector<double>> total;              // [plane][subset]
+  std::vector<std::array<double, 2>> half;             // [plane][half]; 0: the half has nothing yet
   std::vector<std::array<double, group_count>> group;  // [plane][group]; 0: nothing yet
-  double balance = 0.25;  // product of the halves' shares of the samples
+  double balance = 0.25;         // product of the halves' shares of the samples
   double common_variance = 0.0;  // relative, of a factor common to all groups (b)
   bool chain = false;
   bool bootstrap_known = true;  // enough contributing samples to know b

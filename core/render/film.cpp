@@ -142,8 +142,8 @@ std::vector<int> Film::split_indices(SplitKind kind) const {
   const auto planes = static_cast<size_t>(plane_count_);
   for (size_t first = 0; first < slots.size(); first += planes) {
     const auto begin = slots.begin() + static_cast<ptrdiff_t>(first);
-    const bool any = std::any_of(begin, begin + plane_count_,
-                                 [](const Slot& s) { return s.get() != nullptr; });
+    const bool any =
+        std::any_of(begin, begin + plane_count_, [](const Slot& s) { return s.get() != nullptr; });
     if (any) result.push_back(static_cast<int>(first / planes));
   }
   return result;
@@ -160,8 +160,8 @@ void Film::save_slots(Archive& archive, const std::vector<Slot>& slots) {
     if (s.get() == nullptr) continue;
     const Pixels& pixels = *s.get();
     archive.array(pixels.low);
-    const bool high = std::any_of(pixels.high.begin(), pixels.high.end(),
-                                  [](int64_t word) { return word != 0; });
+    const bool high =
+        std::any_of(pixels.high.begin(), pixels.high.end(), [](int64_t word) { return word != 0; });
     archive.array(high ? pixels.high : std::vector<int64_t>());
   }
 }
@@ -262,9 +262,9 @@ void UnitSink::split(int plane, const PathTag& tag, int pixel, const dvec3& valu
 float UnitSink::filter_number() {
   const uint32_t at = numbers_used_ % 4;
   if (at == 0) {
-    numbers_ = philox(unit_.seed,
-                      {numbers_used_ / 4, static_cast<uint32_t>(unit_.unit),
-                       static_cast<uint32_t>(unit_.round), static_cast<uint32_t>(RandomUse::filter)});
+    numbers_ = philox(
+        unit_.seed, {numbers_used_ / 4, static_cast<uint32_t>(unit_.unit),
+                     static_cast<uint32_t>(unit_.round), static_cast<uint32_t>(RandomUse::filter)});
   }
   ++numbers_used_;
   return to_unit(numbers_[at]);

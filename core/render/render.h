@@ -25,11 +25,11 @@ struct RenderSettings {
   std::optional<double> target_error;  // stop when relMSE's 95 % interval is below
   int threads = 0;                     // 0: one per logical processor
   uint64_t seed = 0;
-  bool per_length = false;             // also one image per number of bounces
-  bool per_strategy = false;           // also one image per (s, t)
-  std::string checkpoint;              // file; "": none
-  double checkpoint_seconds = 60.0;    // between checkpoints [s]
-  bool resume = false;                 // from the checkpoint, if the file exists
+  bool per_length = false;               // also one image per number of bounces
+  bool per_strategy = false;             // also one image per (s, t)
+  std::string checkpoint;                // file; "": none
+  double checkpoint_seconds = 60.0;      // between checkpoints [s]
+  bool resume = false;                   // from the checkpoint, if the file exists
   std::vector<double> snapshot_seconds;  // ascending; the first round's end after each calls back
 };
 
@@ -37,11 +37,11 @@ enum class RenderPhase : uint8_t { prepare, bootstrap, render };
 
 struct Progress {
   RenderPhase phase = RenderPhase::prepare;
-  double fraction = 0.0;       // of the budget, the largest of those given
-  double elapsed = 0.0;        // [s]
-  double remaining = -1.0;     // estimated [s]; -1: not known
+  double fraction = 0.0;    // of the budget, the largest of those given
+  double elapsed = 0.0;     // [s]
+  double remaining = -1.0;  // estimated [s]; -1: not known
   double samples = 0.0, samples_per_second = 0.0;
-  bool chains = false;         // samples are mutations
+  bool chains = false;                   // samples are mutations
   const ErrorEstimate* error = nullptr;  // the last one made, null before
 };
 

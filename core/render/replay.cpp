@@ -15,8 +15,8 @@ class PixelSource final : public NumberSource {
   PixelSource(uint64_t seed, int pixel, int index)
       : seed_(seed), pixel_(static_cast<uint32_t>(pixel)), index_(static_cast<uint32_t>(index)) {}
   void fill(Stream stream, uint32_t index, NumberBlock& block) override {
-    const uint32_t use = static_cast<uint32_t>(RandomUse::auxiliary) |
-                         (static_cast<uint32_t>(stream) + 1) << 16;
+    const uint32_t use =
+        static_cast<uint32_t>(RandomUse::auxiliary) | (static_cast<uint32_t>(stream) + 1) << 16;
     block = philox(seed_, {index, pixel_, index_, use});
   }
 
@@ -70,11 +70,10 @@ std::string title(const Layer& layer) {
 }
 
 void start(const BuiltScene& scene, const Layer& layer, uint64_t seed, LayerTools& tools) {
-  const SamplerContext context{
-      *scene.scene, *layer.integrator, *scene.raster_map, seed,
-      [&](int count, const std::function<void(int, Worker&)>& body) {
-        for (int unit = 0; unit < count; ++unit) body(unit, tools.worker);
-      }};
+  const SamplerContext context{*scene.scene, *layer.integrator, *scene.raster_map, seed,
+                               [&](int count, const std::function<void(int, Worker&)>& body) {
+                                 for (int unit = 0; unit < count; ++unit) body(unit, tools.worker);
+                               }};
   layer.sampler->start(context);
 }
 

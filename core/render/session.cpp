@@ -23,11 +23,12 @@ FilmSettings film_settings(const BuiltScene& scene, const RenderSettings& settin
 class PassSource final : public NumberSource {
  public:
   PassSource(uint64_t seed, int round, int unit)
-      : seed_(mix_bits(seed ^ 0x70617373u)), round_(static_cast<uint32_t>(round)),
+      : seed_(mix_bits(seed ^ 0x70617373u)),
+        round_(static_cast<uint32_t>(round)),
         unit_(static_cast<uint32_t>(unit)) {}
   void fill(Stream stream, uint32_t index, NumberBlock& block) override {
-    const uint32_t use = static_cast<uint32_t>(RandomUse::sample) |
-                         static_cast<uint32_t>(stream) << 16;
+    const uint32_t use = static_cast<uint32_t>(RandomUse::sample) | static_cast<uint32_t>(stream)
+                                                                        << 16;
     block = philox(seed_, {index, unit_, round_, use});
   }
 
@@ -40,10 +41,14 @@ class PassSource final : public NumberSource {
 
 std::string_view to_string(StopReason reason) {
   switch (reason) {
-    case StopReason::samples: return "samples";
-    case StopReason::time: return "time";
-    case StopReason::error: return "error";
-    case StopReason::interrupted: return "interrupted";
+    case StopReason::samples:
+      return "samples";
+    case StopReason::time:
+      return "time";
+    case StopReason::error:
+      return "error";
+    case StopReason::interrupted:
+      return "interrupted";
   }
   return "";
 }
@@ -56,7 +61,10 @@ LayerTools::LayerTools(const Integrator& integrator, const RasterMap& map, Rejec
 
 Session::Session(const BuiltScene& scene, const RenderSettings& settings,
                  const RenderCallbacks& callbacks)
-    : scene_(scene), settings_(settings), callbacks_(callbacks), pool_(settings.threads),
+    : scene_(scene),
+      settings_(settings),
+      callbacks_(callbacks),
+      pool_(settings.threads),
       film_(film_settings(scene, settings)) {
   check_settings();
   make_layers();
@@ -124,14 +132,14 @@ void Session::run_units(LayerState& layer, int count, const std::function<void(i
 
 void Session::start_layer(LayerState& layer) {
   const Clock::time_point start = Clock::now();
-  const SamplerContext context{
-      *scene_.scene, *layer.layer->integrator, *scene_.raster_map, layer.seed,
-      [&](int count, const std::function<void(int, Worker&)>& body) {
-        run_units(layer, count, [&](int unit, int slot) {
-          body(unit, tools(layer, slot).worker);
-          if (slot == 0) report_progress(0.0);
-        });
-      }};
+  const SamplerContext context{*scene_.scene, *layer.layer->integrator, *scene_.raster_map,
+                               layer.seed,
+                               [&](int count, const std::function<void(int, Worker&)>& body) {
+                                 run_units(layer, count, [&](int unit, int slot) {
+                                   body(unit, tools(layer, slot).worker);
+                                   if (slot == 0) report_progress(0.0);
+                                 });
+                               }};
   layer.layer->sampler->start(context);
   layer.start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }

@@ -36,8 +36,8 @@ struct LayerState {
   uint64_t seed = 0;
   int rounds = 0;
   double samples = 0.0;
-  double share = 0.0;   // samples this layer gets for every share of the others
-  double target = 0.0;  // samples after which it is done; 0: no such budget
+  double share = 0.0;          // samples this layer gets for every share of the others
+  double target = 0.0;         // samples after which it is done; 0: no such budget
   double start_seconds = 0.0;  // of Sampler::start [s]
   std::vector<std::unique_ptr<LayerTools>> tools;  // per slot, made at first use
   bool done() const { return target > 0.0 && samples >= target; }
@@ -86,18 +86,18 @@ class Session {
   Film film_;
   RejectionLog rejections_;
   std::vector<LayerState> layers_;
-  std::vector<BlockSums> block_sums_;   // per slot
-  std::vector<RayCounters> rays_;       // per slot
-  RayCounters earlier_rays_;            // of the runs that were resumed
+  std::vector<BlockSums> block_sums_;  // per slot
+  std::vector<RayCounters> rays_;      // per slot
+  RayCounters earlier_rays_;           // of the runs that were resumed
   std::array<uint64_t, rejection_count> earlier_rejections_{};
   double earlier_seconds_ = 0.0;
   Clock::time_point begin_ = Clock::now();
   RenderPhase phase_ = RenderPhase::prepare;
-  double round_seconds_ = 0.0;          // of the last round [s]
+  double round_seconds_ = 0.0;                                             // of the last round [s]
   double next_progress_ = 0.0, next_checkpoint_ = 0.0, next_error_ = 0.0;  // [s] of elapsed()
-  double checkpoint_cost_ = 0.0;        // wall time spent writing checkpoints [s]
+  double checkpoint_cost_ = 0.0;  // wall time spent writing checkpoints [s]
   size_t next_snapshot_ = 0;
-  double samples_now_ = 0.0;            // made by the units of this round so far, for progress
+  double samples_now_ = 0.0;  // made by the units of this round so far, for progress
   std::optional<ErrorEstimate> error_;
   StopReason stop_ = StopReason::samples;
   bool resumed_ = false;

@@ -74,12 +74,10 @@ nlohmann::json Session::statistics(const RenderResult& result) const {
   double bootstrap = 0.0;
   for (const LayerState& l : layers_) bootstrap += l.start_seconds;
   const double render = result.seconds - bootstrap;
-  json["seconds"] = {{"load", features.load_seconds},
-                     {"acceleration_structure", features.accel_seconds},
-                     {"bootstrap", bootstrap},
-                     {"render", render},
-                     {"checkpoints", checkpoint_cost_},
-                     {"earlier_runs", earlier_seconds_}};
+  json["seconds"] = {
+      {"load", features.load_seconds},   {"acceleration_structure", features.accel_seconds},
+      {"bootstrap", bootstrap},          {"render", render},
+      {"checkpoints", checkpoint_cost_}, {"earlier_runs", earlier_seconds_}};
   json["threads"] = pool_.threads();
   json["seed"] = settings_.seed;
   json["stopped_by"] = to_string(result.stop);

@@ -60,8 +60,8 @@ TEST_F(Checkpoint, RefusesDamage) {
   write_checkpoint(path_, id, std::string(1000, 'x'));
   const auto size = fs::file_size(path_);
   const auto read = [&] { return message_of([&] { (void)read_checkpoint(path_, id); }); };
-  for (const uintmax_t at : {uintmax_t{0}, uintmax_t{9}, uintmax_t{13}, uintmax_t{45}, size / 2,
-                             size - 1}) {
+  for (const uintmax_t at :
+       {uintmax_t{0}, uintmax_t{9}, uintmax_t{13}, uintmax_t{45}, size / 2, size - 1}) {
     std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
     file.seekg(static_cast<std::streamoff>(at));
     const char before = static_cast<char>(file.get());

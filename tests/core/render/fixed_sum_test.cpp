@@ -57,7 +57,8 @@ TEST(FixedSum, DoesNotDependOnOrderOrGrouping) {
   for (int i = 0; i < 20; ++i) {
     std::shuffle(values.begin(), values.end(), random);
     FixedSum first, second;
-    for (size_t k = 0; k < values.size(); ++k) (k % 3 == 0 ? first : second).add(to_fixed(values[k]));
+    for (size_t k = 0; k < values.size(); ++k)
+      (k % 3 == 0 ? first : second).add(to_fixed(values[k]));
     EXPECT_EQ(sum(values), expected);
     first.add(second);
     EXPECT_EQ(first.value(), expected);

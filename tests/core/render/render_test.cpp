@@ -130,14 +130,14 @@ LayerBegin "rest" Sampler "independent" Integrator "path" "integer mindepth" 2 L
   ASSERT_TRUE(whole.error.mean_known);
   // Both intervals are 95 % ones, i.e. two deviations; 5.3 deviations of the difference is a false
   // alarm once in 1e7.
-  const double deviation = 0.5 * std::hypot(r.error.mean_high - r.error.mean,
-                                            whole.error.mean_high - whole.error.mean);
+  const double deviation =
+      0.5 * std::hypot(r.error.mean_high - r.error.mean, whole.error.mean_high - whole.error.mean);
   EXPECT_NEAR(r.error.mean, whole.error.mean, 5.3 * deviation);
 }
 
 // Exponential noise of mean 1 and variance 1 in every pixel: the estimate is right on average (the
-// picture's own values in the denominator raise it by 3 / samples, 2.4 %), and its interval, meant to
-// hold in 95 %, holds in 24 renders at least 17 times (chance of less: 1e-5 for 95 %).
+// picture's own values in the denominator raise it by 3 / samples, 2.4 %), and its interval, meant
+// to hold in 95 %, holds in 24 renders at least 17 times (chance of less: 1e-5 for 95 %).
 TEST(Render, ErrorEstimateIsCalibrated) {
   const auto noise = [](PrimarySample& u, Splats& out) {
     (void)u.raster();
@@ -189,13 +189,11 @@ TEST(Render, StopFlagEndsTheRender) {
   callbacks.progress = [&](const Progress& p) {
     if (p.phase == RenderPhase::render && p.samples > 2000.0) stop = true;
   };
-  const RenderResult r =
-      render(build_small("path", "independent"), settings_for(1e9), callbacks);
+  const RenderResult r = render(build_small("path", "independent"), settings_for(1e9), callbacks);
   EXPECT_EQ(r.stop, StopReason::interrupted);
   EXPECT_TRUE(r.complete);
   // What is there is what a render of so many rounds gives.
-  const RenderResult same =
-      render(build_small("path", "independent"), settings_for(r.rounds[0]));
+  const RenderResult same = render(build_small("path", "independent"), settings_for(r.rounds[0]));
   EXPECT_EQ(r.image.data, same.image.data);
 }
 

@@ -16,7 +16,8 @@ inline std::string small_scene(const std::string& before = "") {
 PixelFilter "gaussian"
 LookAt 0 -4 1.5  0 0 0.5  0 0 1
 Camera "perspective" "float fov" 50
-)" + before + R"(
+)" + before +
+         R"(
 WorldBegin
 LightSource "point" "point3 from" [ 1 -2 3 ] "rgb I" [ 20 18 15 ]
 AttributeBegin
