@@ -109,8 +109,15 @@ class DiffuseAreaLight final : public Light {
     return {radiance(at.uv), cosine, pdf_position, cosine * inv_pi / sides()};
   }
 
+  static Image read(const Parameters& p, const std::string& file) {
+    try {
+      return read_image(file, "");
+    } catch (const Error& e) {
+      p.fail("filename", e.what());
+    }
+  }
   void load(const Parameters& p, const std::string& file) {
-    image_ = read_image(file, "");
+    image_ = read(p, file);
     if (image_.width == 0 || image_.height == 0) p.fail("filename", "'" + file + "' is empty");
     double sum = 0.0;
     for (int y = 0; y < image_.height; ++y)

@@ -113,8 +113,15 @@ class InfiniteLight final : public Light {
     float pdf;    // [1/sr]
   };
 
+  static Image read(const Parameters& p, const std::string& file) {
+    try {
+      return read_image(file, "");
+    } catch (const Error& e) {
+      p.fail("filename", e.what());
+    }
+  }
   void load(const Parameters& p, const std::string& file) {
-    const Image image = read_image(file, "");
+    const Image image = read(p, file);
     if (image.width != image.height)
       p.fail("filename", "'" + file + "' has " + std::to_string(image.width) + " x " +
                              std::to_string(image.height) +

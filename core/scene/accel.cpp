@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -47,6 +48,14 @@ void user_occluded(const RTCOccludedFunctionNArguments* args) {
   auto* const r = reinterpret_cast<RTCRay*>(args->ray);
   const Ray ray{{r->org_x, r->org_y, r->org_z}, {r->dir_x, r->dir_y, r->dir_z}, r->tfar};
   if (geometry->shape->intersect(ray, r->tnear)) r->tfar = -infinity;
+}
+
+// Embree takes no ray whose origin or direction exceeds 1.844e18 or is not a number; it ends the
+// process for one (its assertions are on in Debian).
+constexpr double embree_reach = static_cast<double>(Accel::max_reach);
+
+bool within(const vec3& v, float reach) {
+  return std::abs(v.x) <= reach && std::abs(v.y) <= reach && std::abs(v.z) <= reach;
 }
 
 RTCRay to_embree(const Ray& ray) {
@@ -171,6 +180,18 @@ Accel::~Accel() {
   rtcReleaseDevice(impl_->device);
 }
 
+double Accel::reach_of(const Transform& to_render) {
+  const Transform from_render = to_render.inverse();
+  const dmat4& inverse = from_render.matrix();
+  double reach = embree_reach;
+  for (int row = 0; row < 3; ++row) {
+    double sum = 1.0;
+    for (int column = 0; column < 3; ++column) sum += std::abs(inverse[column][row]);
+    reach = std::min(reach, (embree_reach - std::abs(inverse[3][row])) / sum);
+  }
+  return reach;
+}
+
 void Accel::build(const std::vector<const Primitive*>& primitives,
                   const std::vector<std::vector<const Primitive*>>& objects,
                   const std::vector<Instance>& instances) {
@@ -185,6 +206,11 @@ void Accel::build(const std::vector<const Primitive*>& primitives,
     d.object_scenes.push_back(scene);
   }
   d.top = d.make_scene();
+  double reach = embree_reach;
+  for (const Instance& instance : instances) {
+    reach = std::min(reach, reach_of(instance.to_render));
+  }
+  reach_ = static_cast<float>(std::max(reach, 0.0));
   for (uint32_t i = 0; i < primitives.size(); ++i) d.attach(d.top, *primitives[i], i);
   d.first_instance_id = static_cast<uint32_t>(primitives.size());
   for (uint32_t i = 0; i < instances.size(); ++i) {
@@ -201,6 +227,7 @@ void Accel::build(const std::vector<const Primitive*>& primitives,
 }
 
 bool Accel::intersect(const Ray& ray, RawHit& hit) const {
+  if (!within(ray.origin, reach_) || !within(ray.direction, 2.f)) return false;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query;
@@ -224,6 +251,7 @@ bool Accel::intersect(const Ray& ray, RawHit& hit) const {
 }
 
 bool Accel::occluded(const Ray& ray) const {
+  if (!within(ray.origin, reach_) || !within(ray.direction, 2.f)) return true;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay query = to_embree(ray);

@@ -37,15 +37,23 @@ class Accel {
     int instance = -1;       // into instances, -1: none
     const Primitive* primitive = nullptr;
   };
+  // A ray that is not finite, or starts beyond reach(), meets nothing and sees nothing.
   bool intersect(const Ray& ray, RawHit& hit) const;
   bool occluded(const Ray& ray) const;
   // Completes the hit in render space (footprint left to the scene).
   void fill(const Ray& ray, const RawHit& raw, Hit& hit) const;
 
   SceneBounds bounds() const;   // of everything, radius 0 if empty
+  // Largest coordinate of geometry.
+  static constexpr float max_reach = 1e18f;
+  // Largest coordinate where rays may start: max_reach, less with tiny instances.
+  float reach() const { return reach_; }
+  // What one instance leaves of it: its own space must hold the ray too, and directions.
+  static double reach_of(const Transform& to_render);
   uint64_t bytes() const;       // Embree's own memory
 
  private:
+  float reach_ = 0.f;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -47,6 +47,8 @@ class SceneBuilder {
   void build_camera();
   void build_lights();
   void build_shapes();
+  static void refuse_beyond_reach(const Shape& shape, const Location& where);
+  void check_reach();
   std::vector<const Primitive*> build_object(const ObjectDescription& object);
   std::unique_ptr<Primitive> build_primitive(const ShapeDescription& shape, const Transform& space);
   void attach_area_light(const ShapeDescription& shape, const Transform& space, Primitive& primitive);
@@ -189,8 +191,24 @@ std::unique_ptr<Primitive> SceneBuilder::build_primitive(const ShapeDescription&
   parameters.set_transform(space * shape.transform.start);
   parameters.set_reverse_orientation(shape.reverse_orientation);
   primitive->shape = make_plugin<Shape>(found, parameters);
+  refuse_beyond_reach(*primitive->shape, shape.where);
   primitive->name = shape.type + " " + to_string(shape.where);
   return primitive;
+}
+
+// Embree would leave out silently what its arithmetic cannot reach.
+void SceneBuilder::refuse_beyond_reach(const Shape& shape, const Location& where) {
+  Bounds bounds;
+  if (const TriangleMesh* const mesh = shape.mesh()) {
+    for (const vec3& p : mesh->positions) bounds.add(p);
+  } else {
+    bounds = shape.bounds();
+  }
+  const vec3 farthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+  if (bounds.min.x <= bounds.max.x && !(max_component(farthest) <= Accel::max_reach)) {
+    throw Error(where, fmt::format("this shape reaches further than {:g} from the camera: that is "
+                                   "too far", Accel::max_reach));
+  }
 }
 
 void SceneBuilder::count(const Primitive& primitive) {
@@ -255,6 +273,20 @@ void SceneBuilder::build_shapes() {
   f.accel_bytes = scene_->accel_->bytes();
   f.instances = !instances.empty();
   f.instance_count = instances.size();
+  check_reach();
+}
+
+// The shapes have been checked in their own space; rays must be able to start on them in those of
+// the instances.
+void SceneBuilder::check_reach() {
+  const SceneBounds bounds = scene_->accel_->bounds();
+  const double extent = static_cast<double>(max_component(glm::abs(bounds.center))) +
+                        static_cast<double>(bounds.radius);
+  for (const InstanceDescription& instance : description_.instances) {
+    if (extent > Accel::reach_of(to_render_ * instance.transform.start)) {
+      throw Error(instance.where, "this instance is too small, or too far away, for the scene's size");
+    }
+  }
 }
 
 void SceneBuilder::finish_lights() {

@@ -121,6 +121,9 @@ std::string read_text(const std::string& path, const Location& where) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw Error(where, "cannot read '" + path + "': it is a directory");
+  // Some of them never end.
+  if (std::filesystem::is_character_file(path, ignored))
+    throw Error(where, "cannot read '" + path + "': it is a device");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (file == nullptr) throw Error(where, "cannot open '" + path + "': " + std::strerror(errno));

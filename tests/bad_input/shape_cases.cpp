@@ -92,6 +92,14 @@ std::vector<BadInput> bad_shapes() {
   const std::string three = "0 0 0 1 0 0 0 1 0";
   std::vector<BadInput> all = {
       {"NoRadius", world("Shape \"sphere\" \"float radius\" 0"), {"radius", "positive"}, "4:16"},
+      {"FarAway", world("Translate 1e30 0 0 Shape \"sphere\""), {"too far"}, "4:20"},
+      {"FarAwayMesh",
+       world("Translate 1e30 0 0 Shape \"trianglemesh\" \"point3 P\" [" + three + "]"),
+       {"too far"}, "4:20"},
+      {"TinyInstance",
+       world("ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Scale 1e-18 1e-18 1e-18 "
+             "ObjectInstance \"o\""),
+       {"instance is too small"}},
       {"NegativeRadius", world("Shape \"disk\" \"float radius\" -1"), {"radius", "positive"}, "4:14"},
       {"NoSphereLeft", world("Shape \"sphere\" \"float zmin\" 2 \"float zmax\" 3"), {"zmin"}},
       {"IndexTooLarge", triangles("0 1 3", three), {"index 3", "3 vertices"}, "4:22"},
@@ -101,7 +109,7 @@ std::vector<BadInput> bad_shapes() {
       {"NormalsTooFew",
        world("Shape \"trianglemesh\" \"point3 P\" [" + three + "] \"normal N\" [0 0 1]"),
        {"1", "3 vertices"}, "4:53"},
-      {"VertexOutOfRange", triangles("0 1 2", "0 0 0 1 0 0 0 1e38 0") + "Scale 1 100 1\n" +
+      {"VertexOutOfRange", triangles("0 1 2", three) + "Scale 1 100 1\n" +
                                "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1e38 0]\n",
        {"range of single precision"}, "6:22"},
       {"PatchIndex",
