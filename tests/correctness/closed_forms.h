@@ -29,7 +29,7 @@ Film "rgb" "integer xresolution" 8 "integer yresolution" 8
 PixelFilter "box"
 LookAt {} 0 {}  0 0 0  0 1 0
 Camera "orthographic" "float screenwindow" [ {} ]
-Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 32
+Sampler "pssmlt" "integer bootstrapsamples" 4096 "integer chains" 32
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" {}
 WorldBegin
@@ -132,7 +132,7 @@ Film "rgb" "integer xresolution" 8 "integer yresolution" 8
 PixelFilter "box"
 LookAt .3 -.2 .1  -.4 .1 1  0 1 0
 Camera "perspective" "float fov" 60
-Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 32
+Sampler "pssmlt" "integer bootstrapsamples" 4096 "integer chains" 32
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" {}
 WorldBegin

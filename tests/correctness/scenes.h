@@ -69,8 +69,8 @@ inline AgreementScene glass_scene() {
   return {"glass", R"(
 Film "rgb" "integer xresolution" 32 "integer yresolution" 32
 PixelFilter "triangle" "float xradius" 1.5 "float yradius" 1.5
-LookAt 0 2.5 -4  0 .5 0  0 1 0
-Camera "perspective" "float fov" 26
+LookAt 0 3.2 -2.6  0 .2 0  0 1 0
+Camera "perspective" "float fov" 38
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
@@ -81,7 +81,7 @@ AttributeBegin
   Texture "checks" "spectrum" "checkerboard" "float uscale" 8 "float vscale" 8
     "rgb tex1" [ .8 .8 .8 ] "rgb tex2" [ .2 .3 .2 ]
   Material "diffuse" "texture reflectance" "checks"
-  Shape "bilinearmesh" "point3 P" [ -3 0 3  3 0 3  -3 0 -3  3 0 -3 ]
+  Shape "bilinearmesh" "point3 P" [ -2 0 2  2 0 2  -2 0 -2  2 0 -2 ]
     "point2 uv" [ 0 0  1 0  0 1  1 1 ]
 AttributeEnd
 AttributeBegin
@@ -95,17 +95,17 @@ AttributeBegin
   Shape "sphere" "float radius" .55
 AttributeEnd
 AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 3 2.5 2 ]
-  Translate -.2 3.6 1
-  Shape "sphere" "float radius" .9
+  AreaLightSource "diffuse" "rgb L" [ 5 4 3 ]
+  Translate -.2 3.2 1.2
+  Shape "sphere" "float radius" .6
 AttributeEnd
 )"};
 }
 
 inline AgreementScene rough_scene() {
   return {"rough", R"(
-Film "rgb" "integer xresolution" 40 "integer yresolution" 48
-  "integer pixelbounds" [ 12 28 0 48 ]
+Film "rgb" "integer xresolution" 32 "integer yresolution" 48
+  "integer pixelbounds" [ 4 28 9 41 ]
 PixelFilter "mitchell"
 LookAt 0 1.6 -4  0 .6 0  0 1 0
 Camera "perspective" "float fov" 34
@@ -118,12 +118,12 @@ LightSource "spot" "rgb I" [ 5 4.5 4 ] "point3 from" [ -1.5 2.5 -1 ] "point3 to"
   "float coneangle" 40 "float conedeltaangle" 20
 AttributeBegin
   Material "diffuse" "rgb reflectance" [ .5 .45 .4 ]
-  Shape "disk" "float radius" 3
+  Shape "disk" "float radius" 2
 AttributeEnd
 AttributeBegin
   Rotate -90 1 0 0
   Material "diffuse" "rgb reflectance" [ .5 .45 .4 ]
-  Shape "disk" "float radius" 3
+  Shape "disk" "float radius" 2
 AttributeEnd
 AttributeBegin
   AreaLightSource "diffuse" "rgb L" [ 6 6 6 ] "bool twosided" true
