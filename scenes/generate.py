@@ -74,7 +74,7 @@ Blind here: direct light sampling (no lamp is visible from this room); path trac
 patch only by chance, and most light paths of plain bdpt never leave the lamp's room.""",
         480, 270, "door-ajar",
         'LookAt .3 1.5 -2.15  -.16 .95 2.4  0 1 0\nCamera "perspective" "float fov" 41',
-        'Sampler "pssmlt" "integer mutationsperpixel" 300',
+        'Sampler "pssmlt" "integer mutationsperpixel" 40',
         'Integrator "bdpt" "integer maxdepth" 12')
     text += """Texture "tiles" "spectrum" "checkerboard" "float uscale" 10 "float vscale" 14
   "rgb tex1" [ .56 .42 .29 ] "rgb tex2" [ .30 .19 .11 ]
@@ -179,7 +179,7 @@ Good here: pssmlt over bdpt. Blind here: direct light sampling (the bulb blocks 
 and light tracing alone (what is seen through glass); path tracing meets the lamp by chance.""",
         432, 270, "glass-caustics",
         'LookAt 0 .95 -2.35  0 .48 0  0 1 0\nCamera "perspective" "float fov" 40',
-        'Sampler "pssmlt" "integer mutationsperpixel" 300',
+        'Sampler "pssmlt" "integer mutationsperpixel" 60',
         'Integrator "bdpt" "integer maxdepth" 12')
     sides = room((-1.3, 1.3), (0, 1.7), (-2.6, 1.1))
     text += attribute(diffuse(.72, .7, .66), *(trianglemesh(sides[s])
