@@ -1,9 +1,13 @@
 // Every integrator under every sampler renders the pictures that are known in closed form, wherever
 // its mask says that it sees all the light there is.
 //
-// False alarms: below 10^-6 for each test. Power: 0.99 against an error of 2 %, computed from the
-// errors measured and asserted.
+// False alarms: below 10^-6 for each test. Power: 0.99 against an error of 2 % of the whole and 10 %
+// of a quadrant, computed from the errors measured and asserted. The half per cent that conserving
+// materials are held to is asserted wherever that leaves the false alarms where they are, which
+// `precise` sees to for the default sampler.
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 #include "tests/correctness/classes.h"
 #include "tests/correctness/closed_forms.h"
@@ -45,19 +49,23 @@ bool sees_all(const Case& c) {
   return true;
 }
 
+// The parts of the picture, and last the whole, whose errors are found as stated above.
 void expect_values(const Blocks& blocks, const ClosedForm& form, const std::string& what) {
-  const double limit =
-      student_limit(false_alarm / static_cast<double>(form.values.size()), renders - 1);
-  for (size_t i = 0; i < form.values.size(); ++i) {
+  const auto parts = static_cast<double>(form.values.size());
+  std::vector<double> expected = form.values;
+  expected.push_back(std::accumulate(expected.begin(), expected.end(), 0.0) / parts);
+  const double limit = student_limit(false_alarm / (parts + 1.0), renders - 1);
+  for (size_t i = 0; i < expected.size(); ++i) {
     const Estimate& e = blocks.estimates[i];
-    const double expected = form.values[i];
-    EXPECT_LE(std::abs(e.mean - expected), std::max(limit * e.error(), rounding * expected))
+    const double difference = std::abs(e.mean - expected[i]);
+    EXPECT_LE(difference, std::max(limit * e.error(), rounding * expected[i]))
         << what << ", part " << i
-        << fmt::format(": {:.6g} +- {:.2g} is not {:.6g}", e.mean, e.error(), expected);
-    EXPECT_LE((limit + 2.3263) * e.error(), .02 * expected) << what << ": too noisy";
+        << fmt::format(": {:.6g} +- {:.2g} is not {:.6g}", e.mean, e.error(), expected[i]);
+    const double found = i + 1 < expected.size() && parts > 1.0 ? .1 : .02;
+    EXPECT_LE((limit + 2.3263) * e.error(), found * expected[i]) << what << ": too noisy";
     // Where chance alone does not lead that far.
-    if (form.half_percent && limit * e.error() <= .005 * expected) {
-      EXPECT_LE(std::abs(e.mean - expected), .005 * expected) << what;
+    if (form.half_percent && limit * e.error() <= .005 * expected[i]) {
+      EXPECT_LE(difference, .005 * expected[i]) << what;
     }
   }
 }
@@ -67,14 +75,16 @@ class ClosedForms : public testing::TestWithParam<Case> {};
 TEST_P(ClosedForms, UnderEverySampler) {
   const Case& c = GetParam();
   if (!sees_all(c)) GTEST_SKIP() << c.integrator << " does not see " << c.form.classes;
+  const DefaultPlugins usual = default_plugins();
+  const bool cheap = c.integrator == usual.integrator || c.integrator == sees_most();
   for (const std::string& sampler : samplers()) {
-    const bool precise = c.form.half_percent && sampler == default_plugins().sampler;
-    const double goal = precise ? .0007 : .0016;
+    const bool precise = c.form.half_percent && cheap && sampler == usual.sampler;
+    const double goal = precise ? .0007 : .0015;
     Job job{.scene = c.form.scene, .integrator = c.integrator, .sampler = sampler};
     job.set = {"integrator.paths=" + c.form.classes};
     job.spp = 64;
-    const int edge = c.form.values.size() == 1 ? 0 : 4;
-    const Blocks blocks = render_to_precision(job, renders, edge, {goal, goal}, 2048);
+    const int edge = c.form.values.size() == 1 ? 8 : 4;
+    const Blocks blocks = render_to_precision(job, renders, edge, {4.0 * goal, goal}, 4096);
     expect_values(blocks, c.form, c.form.name + ": " + c.integrator + " under " + sampler);
   }
 }

@@ -30,7 +30,7 @@ PixelFilter "box"
 LookAt {} 0 {}  0 0 0  0 1 0
 Camera "orthographic" "float screenwindow" [ {} ]
 Sampler "pssmlt" "integer bootstrapsamples" 4096 "integer chains" 32
-  "float largestepprobability" .5
+  "float largestepprobability" .8
 Integrator "path" "integer maxdepth" {}
 WorldBegin
 )", height * std::sin(a), height * std::cos(a), window, depth);
@@ -133,7 +133,7 @@ PixelFilter "box"
 LookAt .3 -.2 .1  -.4 .1 1  0 1 0
 Camera "perspective" "float fov" 60
 Sampler "pssmlt" "integer bootstrapsamples" 4096 "integer chains" 32
-  "float largestepprobability" .5
+  "float largestepprobability" .8
 Integrator "path" "integer maxdepth" {}
 WorldBegin
 ReverseOrientation

@@ -48,7 +48,7 @@ inline Precision precision(const Blocks& blocks) {
 inline Blocks render_to_precision(Job job, int renders, int edge, const Precision& goal,
                                   double most_spp) {
   constexpr int pilots = 12;
-  constexpr double safety = 1.25;  // variances of a pilot are known to 40 %
+  constexpr double safety = 1.5;  // variances of a pilot are known to 40 %
   const Precision p = precision(summarise(render_blocks(job, pilots, edge, 1000)));
   const double excess = std::max(p.block / goal.block, p.whole / goal.whole);
   const double factor = safety * excess * excess * pilots / renders;
