@@ -1,6 +1,6 @@
 // The command as users run it: exit codes, signals, checkpoints that survive kill -9.
-#include <gtest/gtest.h>
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -85,7 +85,8 @@ TEST_F(Command, RendersAndDescribes) {
 }
 
 TEST_F(Command, QuietSaysNothing) {
-  ASSERT_EQ(run({"render", scene_, "--size", "8x8", "--spp", "1", "--quiet", "-o", in("a.pfm")}), 0);
+  ASSERT_EQ(run({"render", scene_, "--size", "8x8", "--spp", "1", "--quiet", "-o", in("a.pfm")}),
+            0);
   EXPECT_EQ(error(), "");
   EXPECT_EQ(output(), "");
 }
@@ -192,8 +193,8 @@ TEST_F(Command, InterruptWritesWhatThereIs) {
 TEST_F(Command, KilledAndResumedGivesTheSameBits) {
   std::mt19937 random(11);
   for (const std::string sampler : {"sobol", "pssmlt"}) {
-    std::vector<std::string> common = {scene_, "--size", "24x17", "--sampler", sampler,
-                                       "--integrator", "bdpt", "--spp", "300", "--quiet"};
+    std::vector<std::string> common = {scene_,         "--size", "24x17", "--sampler", sampler,
+                                       "--integrator", "bdpt",   "--spp", "300",       "--quiet"};
     if (sampler == "pssmlt") {
       common.insert(common.end(), {"--set", "sampler.bootstrapsamples=2000"});
     }
@@ -218,7 +219,8 @@ TEST_F(Command, KilledAndResumedGivesTheSameBits) {
     ASSERT_TRUE(fs::exists(checkpoint)) << error();
     // Another number of threads in the end: it may not matter either.
     ASSERT_EQ(run(with({"-o", output, "--checkpoint", checkpoint, "--resume", "--threads", "3",
-                        "--json", in("s.json")})), 0)
+                        "--json", in("s.json")})),
+              0)
         << error();
     EXPECT_TRUE(nlohmann::json::parse(bytes_of(in("s.json")))["resumed"].get<bool>());
     ASSERT_EQ(run(with({"-o", in("b.pfm"), "--threads", "1"})), 0) << error();
@@ -227,8 +229,8 @@ TEST_F(Command, KilledAndResumedGivesTheSameBits) {
 }
 
 TEST_F(Command, ResumeOfAnotherSceneIsRefused) {
-  const std::vector<std::string> common = {scene_,   "--size", "8x8", "--spp",       "2",
-                                           "-o", in("a.pfm"), "--checkpoint", in("c")};
+  const std::vector<std::string> common = {scene_, "--size",    "8x8",          "--spp", "2",
+                                           "-o",   in("a.pfm"), "--checkpoint", in("c")};
   ASSERT_EQ(run(common), 0) << error();
   auto other = common;
   other[0] = std::string(PSSMLT_SOURCE_DIR) + "/scenes/mis-plates.txt";
