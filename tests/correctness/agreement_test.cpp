@@ -18,7 +18,7 @@ namespace {
 constexpr int edge = 16;     // of a block [pixels]
 constexpr int renders = 32;  // of each technique
 constexpr Demand demand{2.5e-7, .2, .02};
-constexpr Precision goal{.017, .0015}, reference_goal{.008, .0009};
+constexpr Precision goal{.016, .0013}, reference_goal{.01, .0011};
 
 struct Case {
   AgreementScene scene;

@@ -72,7 +72,7 @@ PixelFilter "triangle" "float xradius" 1.5 "float yradius" 1.5
 LookAt 0 3.2 -2.6  0 .2 0  0 1 0
 Camera "perspective" "float fov" 38
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
-  "float largestepprobability" .5
+  "float largestepprobability" .8
 Integrator "path" "integer maxdepth" 4
 WorldBegin
 LightSource "infinite" "rgb L" [ .5 .6 .8 ]
@@ -110,11 +110,11 @@ PixelFilter "mitchell"
 LookAt 0 1.6 -4  0 .6 0  0 1 0
 Camera "perspective" "float fov" 34
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
-  "float largestepprobability" .5
+  "float largestepprobability" .8
 Integrator "path" "integer maxdepth" 4
 WorldBegin
-LightSource "infinite" "rgb L" [ .3 .35 .4 ]
-LightSource "spot" "rgb I" [ 5 4.5 4 ] "point3 from" [ -1.5 2.5 -1 ] "point3 to" [ 0 0 0 ]
+LightSource "infinite" "rgb L" [ .6 .65 .7 ]
+LightSource "spot" "rgb I" [ 2 1.8 1.6 ] "point3 from" [ -1.5 2.5 -1 ] "point3 to" [ 0 0 0 ]
   "float coneangle" 40 "float conedeltaangle" 20
 AttributeBegin
   Material "diffuse" "rgb reflectance" [ .5 .45 .4 ]
@@ -126,8 +126,8 @@ AttributeBegin
   Shape "disk" "float radius" 2
 AttributeEnd
 AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 6 6 6 ] "bool twosided" true
-  Shape "trianglemesh" "point3 P" [ .9 1.6 .6  1.5 1.6 .5  1.2 2.1 .7 ] "integer indices" [ 0 1 2 ]
+  AreaLightSource "diffuse" "rgb L" [ 2 2 2 ] "bool twosided" true
+  Shape "trianglemesh" "point3 P" [ .4 1.7 .6  1.6 1.5 .2  1.1 2.4 .7 ] "integer indices" [ 0 1 2 ]
 AttributeEnd
 ObjectBegin "ball"
   Material "dielectric" "float eta" 1.5 "float roughness" .5 "bool remaproughness" false
