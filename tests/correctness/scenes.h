@@ -75,7 +75,7 @@ Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .8
 Integrator "path" "integer maxdepth" 4
 WorldBegin
-LightSource "infinite" "rgb L" [ .5 .6 .8 ]
+LightSource "infinite" "rgb L" [ .15 .18 .24 ]
 LightSource "distant" "rgb L" [ 1.5 1.4 1.2 ] "point3 from" [ 1 2 -1 ] "point3 to" [ 0 0 0 ]
 AttributeBegin
   Texture "checks" "spectrum" "checkerboard" "float uscale" 8 "float vscale" 8
@@ -95,7 +95,7 @@ AttributeBegin
   Shape "sphere" "float radius" .55
 AttributeEnd
 AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 5 4 3 ]
+  AreaLightSource "diffuse" "rgb L" [ 9 8 7 ]
   Translate -.2 3.2 1.2
   Shape "sphere" "float radius" .6
 AttributeEnd
@@ -113,7 +113,7 @@ Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
   "float largestepprobability" .8
 Integrator "path" "integer maxdepth" 4
 WorldBegin
-LightSource "infinite" "rgb L" [ .6 .65 .7 ]
+LightSource "infinite" "rgb L" [ .12 .13 .14 ]
 LightSource "spot" "rgb I" [ 2 1.8 1.6 ] "point3 from" [ -1.5 2.5 -1 ] "point3 to" [ 0 0 0 ]
   "float coneangle" 40 "float conedeltaangle" 20
 AttributeBegin
@@ -126,7 +126,7 @@ AttributeBegin
   Shape "disk" "float radius" 2
 AttributeEnd
 AttributeBegin
-  AreaLightSource "diffuse" "rgb L" [ 2 2 2 ] "bool twosided" true
+  AreaLightSource "diffuse" "rgb L" [ 5 5 5 ] "bool twosided" true
   Shape "trianglemesh" "point3 P" [ .4 1.7 .6  1.6 1.5 .2  1.1 2.4 .7 ] "integer indices" [ 0 1 2 ]
 AttributeEnd
 ObjectBegin "ball"
