@@ -79,7 +79,7 @@ TEST_P(ClosedForms, UnderEverySampler) {
   const bool cheap = c.integrator == usual.integrator || c.integrator == sees_most();
   for (const std::string& sampler : samplers()) {
     const bool precise = c.form.half_percent && cheap && sampler == usual.sampler;
-    const double goal = precise ? .0007 : .0015;
+    const double goal = precise ? .0008 : .0023;
     Job job{.scene = c.form.scene, .integrator = c.integrator, .sampler = sampler};
     job.set = {"integrator.paths=" + c.form.classes};
     job.spp = 64;

@@ -43,17 +43,31 @@ inline Precision precision(const Blocks& blocks) {
   return p;
 }
 
-// Renders until the errors should be as small as asked: a pilot, whose pictures are not used
-// otherwise, tells how many samples the renders need.
+// Renders until the errors are as small as asked: a pilot, whose pictures are not used otherwise,
+// tells how many samples the renders need; if that was too few, more renders follow, up to eight
+// times as many. The rule looks at the errors alone, which say nothing about the mean's deviation;
+// that it stops at small ones makes them at most a few per cent too small, which the false alarms
+// stated by the tests leave room for.
 inline Blocks render_to_precision(Job job, int renders, int edge, const Precision& goal,
                                   double most_spp) {
-  constexpr int pilots = 12;
-  constexpr double safety = 1.5;  // variances of a pilot are known to 40 %
-  const Precision p = precision(summarise(render_blocks(job, pilots, edge, 1000)));
-  const double excess = std::max(p.block / goal.block, p.whole / goal.whole);
-  const double factor = safety * excess * excess * pilots / renders;
-  job.spp = std::clamp(std::ceil(job.spp * factor), std::min(job.spp, 16.0), most_spp);
-  return summarise(render_blocks(job, renders, edge));
+  constexpr int pilots = 8;
+  const auto excess = [&](const Precision& p) {
+    return std::max(p.block / goal.block, p.whole / goal.whole);
+  };
+  const double rough = excess(precision(summarise(render_blocks(job, pilots, edge, 10000))));
+  job.spp = std::clamp(std::ceil(job.spp * rough * rough * pilots / renders),
+                       job.spp / 2.0, most_spp);
+  BlockValues values = render_blocks(job, renders, edge);
+  Blocks blocks = summarise(values);
+  while (excess(precision(blocks)) > 1.0 && blocks.renders < 8 * renders) {
+    const auto next = static_cast<uint64_t>(blocks.renders) + 1;
+    const BlockValues more = render_blocks(job, renders / 4, edge, next);
+    for (size_t b = 0; b < values.size(); ++b) {
+      values[b].insert(values[b].end(), more[b].begin(), more[b].end());
+    }
+    blocks = summarise(values);
+  }
+  return blocks;
 }
 
 struct Demand {
@@ -71,7 +85,6 @@ inline void expect_agreement(const Blocks& a, const Blocks& b, const Demand& dem
   const double freedom = std::min(a.renders, b.renders) - 1;
   const double limit =
       student_limit(demand.false_alarm / static_cast<double>(a.estimates.size()), freedom);
-  std::string weak;
   for (size_t i = 0; i < a.estimates.size(); ++i) {
     const Estimate &x = a.estimates[i], &y = b.estimates[i];
     const bool whole = i + 1 == a.estimates.size();
@@ -86,13 +99,9 @@ inline void expect_agreement(const Blocks& a, const Blocks& b, const Demand& dem
         << fmt::format("{:.6g} +- {:.2g} against {:.6g} +- {:.2g}, {:.2f} % apart", x.mean,
                        x.error(), y.mean, y.error(), 100.0 * (x.mean / y.mean - 1.0));
     const double found = (limit + sure) * error / y.mean;
-    if (found > (whole ? demand.whole_error : demand.block_error)) {
-      weak += fmt::format("\n{}, {}: only an error of {:.2f} % is found with probability 0.99", what,
-                          where, 100.0 * found);
-    }
+    EXPECT_LE(found, whole ? demand.whole_error : demand.block_error)
+        << what << ", " << where << ": too noisy to find such an error with probability 0.99";
   }
-  // Too noisy to tell is neither agreement nor disagreement.
-  if (!weak.empty()) GTEST_SKIP() << "inconclusive:" << weak;
 }
 
 }  // namespace pssmlt::test
