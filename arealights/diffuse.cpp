@@ -80,7 +80,7 @@ class DiffuseAreaLight final : public Light {
     if (!(t.distance > 0.f)) return std::nullopt;
     t.error = s->error;
     t.wi = d / t.distance;
-    const EmissionValue v = evaluate(t.at, -t.wi);
+    const EmissionValue v = evaluate(t.at, -t.wi, shape_->pdf_area(*s));
     t.value = opacity(t.at) * v.value;
     if (is_black(t.value)) return std::nullopt;
     t.pdf_toward = s->pdf;

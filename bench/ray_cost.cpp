@@ -56,7 +56,7 @@ double in_two_threads(const std::function<void(uint32_t)>& body) {
 }
 
 void replay(const Accel& accel, const std::vector<RecordedRay>& rays) {
-  Accel::RawHit hit;
+  RawHit hit;
   for (const RecordedRay& r : rays) {
     if (r.shadow) {
       accel.occluded(r.ray);

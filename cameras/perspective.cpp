@@ -41,7 +41,7 @@ class Perspective final : public Camera {
   }
 
   std::optional<Emission> emit(const vec2& u_position, const dvec2& u_direction) const override {
-    const dvec2 lens = lens_radius_ * concentric_disk(dvec2(u_position));
+    const dvec2 lens = lens_position(u_position);
     const dvec2 at_focus = tangent_ * screen_.screen(u_direction) - lens / focus_;
     Emission e;
     e.from = lens_point(lens);
@@ -56,7 +56,7 @@ class Perspective final : public Camera {
 
   std::optional<Toward> toward(const vec3& reference, const vec2& u) const override {
     Toward t;
-    t.at = lens_point(lens_radius_ * concentric_disk(dvec2(u)));
+    t.at = lens_point(lens_position(u));
     const vec3 d = t.at.position - reference;
     const float distance2 = length_squared(d);
     if (!(distance2 > 0.f)) return std::nullopt;
@@ -110,6 +110,10 @@ class Perspective final : public Camera {
           1.0 / (std::numbers::pi * lens_radius_ * lens_radius_ * glm::length(n)));
   }
 
+  // In the camera's units, from the centre of the lens.
+  dvec2 lens_position(const vec2& u) const {
+    return lens_radius_ > 0.0 ? lens_radius_ * concentric_disk(dvec2(u)) : dvec2(0.0);
+  }
   EndpointPoint lens_point(const dvec2& lens) const {
     EndpointPoint at;
     at.position = vec3(center_ + to_render_ * dvec3(lens, 0.0));

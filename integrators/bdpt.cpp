@@ -231,17 +231,18 @@ void Bdpt::draw_lights(const Subpath& camera, PrimarySample& u, Splats& out) con
 void Bdpt::draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, Splats& out) const {
   if (!wants(st)) return;
   const Surface& surface = x.surface;
-  const auto draw = draw_light(*scene_, surface.hit.position, light_numbers(u, st.t - 1));
-  if (!draw || !limits_.paths.ends(draw->letter(), x.joined_state)) return;
-  const Toward& t = draw->toward;
-  const Rgb value = x.throughput * surface.f_cos(t.wi, Transport::radiance) * t.value / draw->pdf();
+  const LightDraw draw(*scene_, surface.hit.position, light_numbers(u, st.t - 1));
+  if (!draw.succeeded() || !limits_.paths.ends(draw.letter(), x.joined_state)) return;
+  const Toward& t = draw.toward();
+  const auto scattering = surface.scattering(t.wi, Transport::radiance);
+  const Rgb value = x.throughput * scattering.f_cos * t.value / draw.pdf();
   if (is_black(value)) return;
   const double light_side =
-      draw->delta() ? 0.0 : mis_.f(as_double(surface.pdf(t.wi)) / as_double(draw->pdf()));
+      draw.delta() ? 0.0 : mis_.f(as_double(scattering.pdf) / as_double(draw.pdf()));
   // The probability of choosing the light is the same whether it emits or is drawn.
   const double emit = emitted_over_drawn(t, cosine(surface, t.wi), t.pdf_toward);
   const double camera_side =
-      light_side_ ? mis_.join(x.mis, emit, as_double(surface.pdf(t.wi, surface.wo))) : 0.0;
+      light_side_ ? mis_.join(x.mis, emit, as_double(scattering.pdf_reverse)) : 0.0;
   const float visible = scene_->visibility(surface.segment(t));
   out.camera(visible * weight(light_side, camera_side) * value, st.tag());
 }
@@ -276,12 +277,11 @@ void Bdpt::lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats&
   const auto lens =
       scene_->camera().toward(surface.hit.position, lens_connection_numbers(u, st.s - 1));
   if (!lens || !(lens->pdf_toward > 0.f)) return;
-  const Rgb f = surface.f_cos(lens->wi, Transport::importance);
-  const Rgb value = y.throughput * f * lens->value / lens->pdf_toward;
+  const auto scattering = surface.scattering(lens->wi, Transport::importance);
+  const Rgb value = y.throughput * scattering.f_cos * lens->value / lens->pdf_toward;
   if (is_black(value)) return;
   const double emit = emitted_over_drawn(*lens, cosine(surface, lens->wi), lens->pdf_toward);
-  const double light_side =
-      mis_.join(y.mis, emit, as_double(surface.pdf(lens->wi, surface.wo)));
+  const double light_side = mis_.join(y.mis, emit, as_double(scattering.pdf_reverse));
   const float visible = scene_->visibility(surface.segment(*lens));
   out.light(lens->raster, visible * weight(light_side, 0.0) * value, st.tag());
 }
@@ -314,19 +314,18 @@ void Bdpt::join(const PathVertex& x, const PathVertex& y, Strategy st, float fac
   if (!(distance2 > 0.f)) return;
   const vec3 to_y = edge / std::sqrt(distance2);
   const vec3 to_x = -to_y;
-  const Rgb fx = x.surface.f_cos(to_y, Transport::radiance);
-  if (is_black(fx)) return;
-  const Rgb fy = y.surface.f_cos(to_x, Transport::importance);
-  const Rgb value = x.throughput * fx * fy * y.throughput * (factor / distance2);
+  const auto at_camera = x.surface.scattering(to_y, Transport::radiance);
+  if (is_black(at_camera.f_cos)) return;
+  const auto at_light = y.surface.scattering(to_x, Transport::importance);
+  const Rgb value =
+      x.throughput * at_camera.f_cos * at_light.f_cos * y.throughput * (factor / distance2);
   if (is_black(value)) return;
   const double d2 = as_double(distance2);
   // Densities per area of each vertex as sampled from the other side.
-  const double at_y = as_double(x.surface.pdf(to_y)) * as_double(cosine(y.surface, to_y)) / d2;
-  const double at_x = as_double(y.surface.pdf(to_x)) * as_double(cosine(x.surface, to_x)) / d2;
-  const double light_side =
-      mis_.join(y.mis, at_y, as_double(y.surface.pdf(to_x, y.surface.wo)));
-  const double camera_side =
-      mis_.join(x.mis, at_x, as_double(x.surface.pdf(to_y, x.surface.wo)));
+  const double at_y = as_double(at_camera.pdf) * as_double(cosine(y.surface, to_y)) / d2;
+  const double at_x = as_double(at_light.pdf) * as_double(cosine(x.surface, to_x)) / d2;
+  const double light_side = mis_.join(y.mis, at_y, as_double(at_light.pdf_reverse));
+  const double camera_side = mis_.join(x.mis, at_x, as_double(at_camera.pdf_reverse));
   const float visible = scene_->visibility(x.surface.segment(y.surface));
   out.camera(visible * weight(light_side, camera_side) * value, st.tag());
 }

@@ -126,14 +126,14 @@ void Path::add_background(const Walk& w, Splats& out) const {
 // Next event estimation, weighted against meeting the light by chance.
 void Path::add_direct(const Walk& w, const Surface& s, PrimarySample& u, Splats& out) const {
   if (w.bounces < limits_.min_bounces) return;
-  const auto draw = draw_light(*scene_, s.hit.position, light_numbers(u, w.bounces));
-  if (!draw) return;
-  if (!limits_.paths.ends(draw->letter(), limits_.paths.camera_step(w.state, false))) return;
-  const Toward& t = draw->toward;
+  const LightDraw draw(*scene_, s.hit.position, light_numbers(u, w.bounces));
+  if (!draw.succeeded()) return;
+  if (!limits_.paths.ends(draw.letter(), limits_.paths.camera_step(w.state, false))) return;
+  const Toward& t = draw.toward();
   const Rgb f = s.f_cos(t.wi, Transport::radiance);
   if (is_black(f)) return;
-  const float weight = draw->delta() ? 1.f : power_weight(draw->pdf(), s.pdf(t.wi));
-  const Rgb value = w.throughput * f * t.value * (weight / draw->pdf());
+  const float weight = draw.delta() ? 1.f : power_weight(draw.pdf(), s.pdf(t.wi));
+  const Rgb value = w.throughput * f * t.value * (weight / draw.pdf());
   if (is_black(value)) return;
   const float visible = scene_->visibility(s.segment(t));
   const auto bounces = static_cast<uint16_t>(w.bounces);

@@ -86,12 +86,12 @@ void Whitted::add_background(const Walk& w, Splats& out) const {
 }
 
 void Whitted::add_direct(const Walk& w, const Surface& s, PrimarySample& u, Splats& out) const {
-  const auto draw = draw_light(*scene_, s.hit.position, light_numbers(u, w.bounces));
-  if (!draw) return;
-  const Rgb f = s.f_cos(draw->toward.wi, Transport::radiance);
-  const Rgb value = f * draw->toward.value / draw->pdf();
+  const LightDraw draw(*scene_, s.hit.position, light_numbers(u, w.bounces));
+  if (!draw.succeeded()) return;
+  const Rgb f = s.f_cos(draw.toward().wi, Transport::radiance);
+  const Rgb value = f * draw.toward().value / draw.pdf();
   if (is_black(value)) return;
-  add(w, draw->letter(), 1, scene_->visibility(s.segment(draw->toward)) * value, out);
+  add(w, draw.letter(), 1, scene_->visibility(s.segment(draw.toward())) * value, out);
 }
 
 // Goes on along a perfectly specular direction; false where there is none.

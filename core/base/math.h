@@ -32,13 +32,21 @@ inline constexpr float one_minus_epsilon = 0x1.fffffep-1f;
 
 inline float sqr(float x) { return x * x; }
 inline double sqr(double x) { return x * x; }
-// Square root of what rounding may have made slightly negative.
-inline float safe_sqrt(float x) { return std::sqrt(std::fmax(x, 0.f)); }
+// Square root of what rounding may have made slightly negative. (std::fmax and std::fmin are
+// library calls where NaN is allowed for.)
+inline float safe_sqrt(float x) { return x > 0.f ? std::sqrt(x) : 0.f; }
 inline float length_squared(const vec3& v) { return glm::dot(v, v); }
 inline bool is_finite(const vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
-inline float max_component(const vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
-inline float min_component(const vec3& v) { return std::fmin(v.x, std::fmin(v.y, v.z)); }
+// The first of equal ones; a NaN in z stays.
+inline float max_component(const vec3& v) {
+  const float yz = v.y > v.z ? v.y : v.z;
+  return v.x > yz ? v.x : yz;
+}
+inline float min_component(const vec3& v) {
+  const float yz = v.y < v.z ? v.y : v.z;
+  return v.x < yz ? v.x : yz;
+}
 
 }  // namespace pssmlt

@@ -2,10 +2,29 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 
 #include "core/base/math.h"
 
 namespace pssmlt {
+
+template <typename T>
+struct SineCosine {
+  T sine, cosine;
+};
+// Of an angle in [-pi/4, pi/4] [rad], to rounding: Taylor polynomials, which unlike the library's
+// functions need no call and no reduction.
+template <typename T>
+SineCosine<T> small_angle(T a) {
+  if constexpr (std::is_same_v<T, double>) {
+    return {std::sin(a), std::cos(a)};
+  } else {
+    const T x = a * a;
+    const T s = T(-1. / 6) + x * (T(1. / 120) + x * (T(-1. / 5040) + x * T(1. / 362880)));
+    const T c = T(-1. / 2) + x * (T(1. / 24) + x * (T(-1. / 720) + x * T(1. / 40320)));
+    return {a + a * (x * s), T(1) + x * c};
+  }
+}
 
 // A point of the unit disk, uniformly: the concentric map of Shirley and Chiu (1997), which keeps
 // neighbours together.
@@ -14,10 +33,12 @@ glm::vec<2, T> concentric_disk(const glm::vec<2, T>& u) {
   const T x = T(2) * u.x - T(1), y = T(2) * u.y - T(1);
   if (x == T(0) && y == T(0)) return {T(0), T(0)};
   constexpr T quarter = std::numbers::pi_v<T> / T(4);
-  const bool wide = std::abs(x) > std::abs(y);
-  const T r = wide ? x : y;
-  const T phi = wide ? quarter * (y / x) : T(2) * quarter - quarter * (x / y);
-  return {r * std::cos(phi), r * std::sin(phi)};
+  if (std::abs(x) > std::abs(y)) {
+    const SineCosine<T> phi = small_angle(quarter * (y / x));
+    return {x * phi.cosine, x * phi.sine};
+  }
+  const SineCosine<T> rest = small_angle(quarter * (x / y));  // to a right angle
+  return {y * rest.sine, y * rest.cosine};
 }
 
 // A direction about +z with density cos(theta) / pi [1/sr].

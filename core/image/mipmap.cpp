@@ -189,15 +189,18 @@ T Mipmap<T>::texel(const Level& level, int x, int y) const {
   if ((x | y) < 0) return T(0.f);
   const size_t at =
       static_cast<size_t>(y) * static_cast<size_t>(level.width) + static_cast<size_t>(x);
-  const auto value = [&](size_t i) {
-    return level.bytes.empty() ? level.floats[i] : decoded_[level.bytes[i]];
+  const auto read = [channels = channels_](const auto* pixels, size_t i, const auto& decode) {
+    (void)channels;
+    if constexpr (std::is_same_v<T, float>) {
+      return decode(pixels[i]);
+    } else {
+      if (channels == 1) return Rgb(decode(pixels[i]));
+      const auto* const p = pixels + 3 * i;
+      return Rgb(decode(p[0]), decode(p[1]), decode(p[2]));
+    }
   };
-  if constexpr (std::is_same_v<T, float>) {
-    return value(at);
-  } else {
-    if (channels_ == 1) return Rgb(value(at));
-    return {value(3 * at), value(3 * at + 1), value(3 * at + 2)};
-  }
+  if (level.bytes.empty()) return read(level.floats.data(), at, [](float v) { return v; });
+  return read(level.bytes.data(), at, [this](uint8_t v) { return decoded_[v]; });
 }
 
 template <typename T>

@@ -9,25 +9,30 @@
 
 namespace pssmlt {
 
-struct LightDraw {
-  const Light* light = nullptr;
-  float probability = 0.f;  // of choosing this light [1]
-  EndpointTraits traits;
-  Toward toward;
-  // Density of the whole draw [1/sr at the reference; see Toward::pdf_toward].
-  float pdf() const { return probability * toward.pdf_toward; }
-  bool delta() const { return traits.delta_position || traits.delta_direction; }
-  LightLetter letter() const { return light_letter(traits); }
-};
+class LightDraw {
+ public:
+  LightDraw(const Scene& scene, const vec3& reference, const LightNumbers& u)
+      : choice_(scene.lights().choose(u.choice)),
+        toward_(choice_.light ? choice_.light->toward(reference, u.position) : std::nullopt) {
+    if (toward_) traits_ = choice_.light->traits();
+  }
+  LightDraw(const LightDraw&) = delete;
+  LightDraw& operator=(const LightDraw&) = delete;
 
-// nullopt where no light reaches the reference.
-inline std::optional<LightDraw> draw_light(const Scene& scene, const vec3& reference,
-                                           const LightNumbers& u) {
-  const auto choice = scene.lights().choose(u.choice);
-  if (!choice.light) return std::nullopt;
-  const auto toward = choice.light->toward(reference, u.position);
-  if (!toward || is_black(toward->value) || !(toward->pdf_toward > 0.f)) return std::nullopt;
-  return LightDraw{choice.light, choice.probability, choice.light->traits(), *toward};
-}
+  // False where no light reaches the reference; nothing else may be asked for then.
+  bool succeeded() const {
+    return toward_ && !is_black(toward_->value) && toward_->pdf_toward > 0.f;
+  }
+  const Toward& toward() const { return *toward_; }
+  // Density of the whole draw [1/sr at the reference; see Toward::pdf_toward].
+  float pdf() const { return choice_.probability * toward_->pdf_toward; }
+  bool delta() const { return traits_.delta_position || traits_.delta_direction; }
+  LightLetter letter() const { return light_letter(traits_); }
+
+ private:
+  LightTable::Choice choice_;
+  std::optional<Toward> toward_;  // made in place: it is large
+  EndpointTraits traits_;
+};
 
 }  // namespace pssmlt

@@ -25,8 +25,16 @@ Rgb Surface::f_cos(const vec3& wi, Transport mode) const {
 
 float Surface::pdf(const vec3& wi) const { return bsdf_->pdf(wo_local_, frame_.to_local(wi)); }
 
-float Surface::pdf(const vec3& from, const vec3& to) const {
-  return bsdf_->pdf(frame_.to_local(from), frame_.to_local(to));
+Surface::Scattering Surface::scattering(const vec3& wi, Transport mode) const {
+  Scattering s;
+  const vec3 local = frame_.to_local(wi);
+  if (local.z == 0.f) return s;
+  const Rgb f = bsdf_->eval(wo_local_, local, mode);
+  if (is_black(f)) return s;
+  s.f_cos = f * (mode == Transport::radiance ? std::abs(local.z) : adjoint_cosine(wi));
+  s.pdf = bsdf_->pdf(wo_local_, local);
+  s.pdf_reverse = bsdf_->pdf(local, wo_local_);
+  return s;
 }
 
 std::optional<ScatterSample> Surface::sample(float u_lobe, const vec2& u, Transport mode) const {

@@ -36,8 +36,12 @@ class Surface {
   Rgb f_cos(const vec3& wi, Transport mode) const;
   // Density of sample() [1/sr], delta lobes excluded.
   float pdf(const vec3& wi) const;
-  // Density of sampling `to` when arriving from `from` (reverse of a path) [1/sr].
-  float pdf(const vec3& from, const vec3& to) const;
+  // f_cos and pdf toward wi, and the density of sampling wo when arriving from wi [1/sr].
+  struct Scattering {
+    Rgb f_cos{0.f};
+    float pdf = 0.f, pdf_reverse = 0.f;
+  };
+  Scattering scattering(const vec3& wi, Transport mode) const;
   std::optional<ScatterSample> sample(float u_lobe, const vec2& u, Transport mode) const;
   // True if f_cos can be non-zero. Call after a shade() that returned true, as all but hit and wo.
   bool connectible() const { return bsdf_->connectible(); }

@@ -18,11 +18,19 @@ struct Inverted {
   int interval;
   double fraction;
 };
-Inverted invert(const double* cdf, double u) {
-  const double* after = std::upper_bound(cdf + 1, cdf + cells, u);
-  const double* before = after - 1;
-  const double width = *after - *before;
-  return {static_cast<int>(before - cdf), width > 0.0 ? (u - *before) / width : 0.5};
+// `guide` names the interval that k / cells lies in, where the search for u >= k / cells starts.
+Inverted invert(const double* cdf, const uint8_t* guide, double u) {
+  int i = guide[static_cast<int>(u * cells)];
+  while (i < cells - 1 && cdf[i + 1] <= u) ++i;
+  const double width = cdf[i + 1] - cdf[i];
+  return {i, width > 0.0 ? (u - cdf[i]) / width : 0.5};
+}
+
+void make_guide(const double* cdf, uint8_t* guide) {
+  for (int k = 0, i = 0; k < cells; ++k) {
+    while (i < cells - 1 && cdf[i + 1] <= static_cast<double>(k) / cells) ++i;
+    guide[k] = static_cast<uint8_t>(i);
+  }
 }
 
 // Mean of the filter over one cell.
@@ -91,6 +99,12 @@ void RasterMap::accumulate() {
     for (size_t x = 1; x <= cells && row_sum > 0.0; ++x) row[x] /= row_sum;
   }
   for (double& c : marginal_cdf_) c /= abs_sum;
+  marginal_guide_.resize(cells);
+  conditional_guide_.resize(cells * cells);
+  make_guide(marginal_cdf_.data(), marginal_guide_.data());
+  for (size_t y = 0; y < cells; ++y) {
+    make_guide(&conditional_cdf_[y * (cells + 1)], &conditional_guide_[y * cells]);
+  }
   const double cell_area = 4.0 * radius_.x * radius_.y / (cells * cells);
   integral_ = sum * cell_area;
   abs_integral_ = abs_sum * cell_area;
@@ -98,9 +112,10 @@ void RasterMap::accumulate() {
 
 RasterMap::Offset RasterMap::sample_offset(double x, double y) const {
   if (pixel_box_) return {dvec2(x, y) - 0.5, 1.f};
-  const Inverted row = invert(marginal_cdf_.data(), y);
+  const Inverted row = invert(marginal_cdf_.data(), marginal_guide_.data(), y);
+  const auto line = static_cast<size_t>(row.interval);
   const Inverted column =
-      invert(&conditional_cdf_[static_cast<size_t>(row.interval * (cells + 1))], x);
+      invert(&conditional_cdf_[line * (cells + 1)], &conditional_guide_[line * cells], x);
   const dvec2 at(column.interval + column.fraction, row.interval + row.fraction);
   const float value = values_[static_cast<size_t>(row.interval * cells + column.interval)];
   const double weight = abs_integral_ / integral_;

@@ -61,6 +61,7 @@ class RasterMap {
   // Tabulated |f| for inversion: marginal over rows, then conditional over the cells of a row; each
   // starts with 0 and ends with 1.
   std::vector<double> marginal_cdf_, conditional_cdf_;
+  std::vector<uint8_t> marginal_guide_, conditional_guide_;
   double integral_ = 1.0, abs_integral_ = 1.0;  // of f and |f| [pixels^2]
 };
 

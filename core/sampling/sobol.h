@@ -11,7 +11,9 @@ namespace pssmlt {
 
 // Nested uniform scrambling from the lowest bit up: bit i is flipped by a hash of the bits below.
 // (Laine & Karras 2011 with constants of N. Vegdahl, "Building a Better LK Hash", 2021.)
-inline uint32_t scramble_upward(uint32_t x, uint32_t seed) {
+// `Word` is uint32_t or a vector of them.
+template <typename Word>
+Word scramble_upward(Word x, Word seed) {
   x ^= x * 0x3D20ADEAu;
   x += seed;
   x *= (seed >> 16) | 1u;
@@ -20,8 +22,10 @@ inline uint32_t scramble_upward(uint32_t x, uint32_t seed) {
   return x;
 }
 
-inline uint32_t reverse_bits(uint32_t x) {
-  x = __builtin_bswap32(x);
+template <typename Word>
+Word reverse_bits(Word x) {
+  x = x >> 16 | x << 16;
+  x = (x >> 8 & 0x00FF00FFu) | (x & 0x00FF00FFu) << 8;
   x = (x >> 4 & 0x0F0F0F0Fu) | (x & 0x0F0F0F0Fu) << 4;
   x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
   return (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;

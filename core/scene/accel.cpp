@@ -259,14 +259,14 @@ bool Accel::occluded(const Ray& ray) const {
   return query.tfar < 0.f;
 }
 
-void Accel::fill(const Ray& ray, const RawHit& raw, Hit& hit) const {
+void Accel::fill(const RawHit& raw, Hit& hit) const {
+  hit.distance = raw.t;
   hit.primitive = raw.primitive;
   hit.element = raw.element;
   raw.primitive->shape->fill(raw.where, hit);
   if (raw.instance >= 0) {
     transform_hit(impl_->instances[static_cast<size_t>(raw.instance)].to_render, hit);
   }
-  hit.distance = glm::distance(ray.origin, hit.position);
 }
 
 SceneBounds Accel::bounds() const {

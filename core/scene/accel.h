@@ -11,6 +11,15 @@
 
 namespace pssmlt {
 
+// Where a ray meets something, before its surface is computed.
+struct RawHit {
+  float t = 0.f;           // along the ray [m]
+  vec2 where{0.f};         // barycentric or the shape's own coordinates
+  uint32_t element = 0;
+  int instance = -1;       // into the instances, -1: none
+  const Primitive* primitive = nullptr;
+};
+
 class Accel {
  public:
   // A set of primitives placed once (identity) or by every one of its instances.
@@ -29,19 +38,11 @@ class Accel {
              const std::vector<std::vector<const Primitive*>>& objects,
              const std::vector<Instance>& instances);
 
-  // Where a ray meets something, before its surface is computed.
-  struct RawHit {
-    float t = 0.f;
-    vec2 where{0.f};         // barycentric or the shape's own coordinates
-    uint32_t element = 0;
-    int instance = -1;       // into instances, -1: none
-    const Primitive* primitive = nullptr;
-  };
   // A ray that is not finite, or starts beyond reach(), meets nothing and sees nothing.
   bool intersect(const Ray& ray, RawHit& hit) const;
   bool occluded(const Ray& ray) const;
   // Completes the hit in render space (footprint left to the scene).
-  void fill(const Ray& ray, const RawHit& raw, Hit& hit) const;
+  void fill(const RawHit& raw, Hit& hit) const;
 
   SceneBounds bounds() const;   // of everything, radius 0 if empty
   // Largest coordinate of geometry.

@@ -45,31 +45,45 @@ float Scene::footprint(const vec3& position) const {
   return parallel_ ? pixel_spread_ : pixel_spread_ * glm::distance(camera_center_, position);
 }
 
+void Scene::complete(const RawHit& raw, Hit& hit) const {
+  accel_->fill(raw, hit);
+  hit.footprint = footprint(hit.position);
+}
+
 bool Scene::intersect(const Ray& ray, float u_alpha, Hit& hit) const {
   ++thread_counters.nearest;
-  Accel::RawHit raw;
+  bool found = false;
+  if (features_.alpha) {
+    found = intersect_cut_outs(ray, u_alpha, hit);
+  } else {
+    RawHit raw;
+    found = accel_->intersect(ray, raw);
+    if (found) complete(raw, hit);
+  }
+  if (path_logged) {
+    log_ray("ray", ray, found ? "meets " + hit.primitive->name + " at " + text(hit.position)
+                              : "leaves the scene");
+  }
+  return found;
+}
+
+bool Scene::intersect_cut_outs(const Ray& ray, float u_alpha, Hit& hit) const {
+  RawHit raw;
   Ray rest = ray;
   float travelled = 0.f;
   while (accel_->intersect(rest, raw)) {
-    accel_->fill(rest, raw, hit);
-    hit.footprint = footprint(hit.position);
+    complete(raw, hit);
     const Texture<float>* const alpha = raw.primitive->alpha.get();
     const float opacity = alpha ? alpha->evaluate(hit) : 1.f;
-    if (opacity >= 1.f || u_alpha < opacity) {
-      hit.distance += travelled;
-      if (path_logged) {
-        log_ray("ray", ray, "meets " + raw.primitive->name + " at " + text(hit.position));
-      }
-      return true;
-    }
+    hit.distance += travelled;
+    if (opacity >= 1.f || u_alpha < opacity) return true;
     // Inversion over the sorted hits: what is left of the number decides at the next one.
-    u_alpha = std::fmin((u_alpha - opacity) / (1.f - opacity), one_minus_epsilon);
-    travelled += hit.distance;
+    u_alpha = std::min((u_alpha - opacity) / (1.f - opacity), one_minus_epsilon);
+    travelled = hit.distance;
     rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);
     rest.t_max = ray.t_max - travelled;
     if (!(rest.t_max > 0.f)) break;
   }
-  if (path_logged) log_ray("ray", ray, "leaves the scene");
   return false;
 }
 
@@ -81,14 +95,13 @@ float Scene::visibility(const Ray& ray) const {
     return blocked ? 0.f : 1.f;
   }
   float passed = 1.f;
-  Accel::RawHit raw;
+  RawHit raw;
   Hit hit;
   Ray rest = ray;
   while (accel_->intersect(rest, raw)) {
     const Texture<float>* const alpha = raw.primitive->alpha.get();
     if (!alpha) return 0.f;
-    accel_->fill(rest, raw, hit);
-    hit.footprint = footprint(hit.position);
+    complete(raw, hit);
     passed *= 1.f - std::fmin(std::fmax(alpha->evaluate(hit), 0.f), 1.f);
     if (!(passed > 0.f)) return 0.f;
     rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);

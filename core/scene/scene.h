@@ -17,6 +17,7 @@
 namespace pssmlt {
 
 class Accel;
+struct RawHit;
 
 // A shape with what is attached to it.
 struct Primitive {
@@ -68,6 +69,8 @@ class Scene {
   std::unique_ptr<Accel> accel_;
   // Diameter of a pixel at a point [m].
   float footprint(const vec3& position) const;
+  void complete(const RawHit& raw, Hit& hit) const;
+  bool intersect_cut_outs(const Ray& ray, float u_alpha, Hit& hit) const;
 
   std::shared_ptr<const Camera> camera_;
   // What the footprint needs of the camera, which is asked for at every hit.

@@ -58,7 +58,7 @@ MeshShape::MeshShape(MeshData data, const Parameters& p) {
   tangents_ = std::move(data.tangents);
   flip_ = p.reverse_orientation() != p.transform().swaps_handedness();
   transform(p);
-  const size_t dropped = drop_degenerate();
+  const size_t dropped = measure();
   if (dropped != 0)
     log_debug(to_string(p.where()) + ": " + p.owner() + ": " + std::to_string(dropped) +
               " triangles without area left out");
@@ -99,26 +99,42 @@ void MeshShape::transform(const Parameters& p) {
   for (vec3& s : tangents_) s = to_render.vector(s);
 }
 
-size_t MeshShape::drop_degenerate() {
-  const auto degenerate = [this](const glm::uvec3& t) {
+size_t MeshShape::measure() {
+  std::vector<glm::uvec3>& triangles = mesh_.triangles;
+  face_normals_.reserve(triangles.size());
+  double sum = 0.0;
+  size_t kept = 0;
+  for (const glm::uvec3& t : triangles) {
     const dvec3 a = area_vector(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]);
-    return !(static_cast<float>(glm::length(a)) > 0.f);
-  };
-  const size_t before = mesh_.triangles.size();
-  std::erase_if(mesh_.triangles, degenerate);
-  return before - mesh_.triangles.size();
+    const double length = glm::length(a);
+    if (!(static_cast<float>(length) > 0.f)) continue;
+    face_normals_.emplace_back((flip_ ? -a : a) / length);
+    sum += length;
+    triangles[kept++] = t;
+  }
+  const size_t dropped = triangles.size() - kept;
+  triangles.resize(kept);
+  area_ = static_cast<float>(sum);
+  inverse_area_ = area_ > 0.f ? 1.f / area_ : 0.f;
+  return dropped;
 }
 
 const Distribution1D& MeshShape::areas() const {
-  std::call_once(areas_once_, [this] {
-    std::vector<double> a;
-    a.reserve(mesh_.triangles.size());
-    for (const glm::uvec3& t : mesh_.triangles)
-      a.push_back(glm::length(
-          area_vector(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z])));
-    areas_ = Distribution1D(std::span<const double>(a));
-  });
+  if (!areas_made_.load(std::memory_order_acquire)) {
+    std::call_once(areas_once_, [this] { make_areas(); });
+  }
   return areas_;
+}
+
+void MeshShape::make_areas() const {
+  std::vector<double> a;
+  a.reserve(mesh_.triangles.size());
+  for (const glm::uvec3& t : mesh_.triangles) {
+    a.push_back(glm::length(
+        area_vector(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z])));
+  }
+  areas_ = Distribution1D(std::span<const double>(a));
+  areas_made_.store(true, std::memory_order_release);
 }
 
 Bounds MeshShape::bounds() const {
@@ -132,13 +148,9 @@ MeshShape::Corners MeshShape::corners(uint32_t triangle) const {
   return {mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]};
 }
 
-vec3 MeshShape::outside(const Corners& c, const vec3& ns) const {
-  // In double: slivers and tiny triangles would lose their direction.
-  const dvec3 a = area_vector(c.p0, c.p1, c.p2);
-  const vec3 n(a / glm::length(a));
-  const float agreement = glm::dot(n, ns);
-  if (agreement != 0.f) return agreement < 0.f ? -n : n;
-  return flip_ ? -n : n;
+vec3 MeshShape::outside(uint32_t triangle, const vec3& ns) const {
+  const vec3& n = face_normals_[triangle];
+  return glm::dot(n, ns) < 0.f ? -n : n;
 }
 
 vec3 MeshShape::shading_normal(uint32_t triangle, const vec3& b) const {
@@ -158,7 +170,7 @@ void MeshShape::fill(const vec2& where, Hit& hit) const {
   hit.error =
       interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) + glm::abs(b.z * c.p2));
   const vec3 ns = shading_normal(hit.element, b);
-  hit.ng = outside(c, ns);
+  hit.ng = outside(hit.element, ns);
   const float l2 = length_squared(ns);
   hit.ns = l2 > 0.f && std::isfinite(l2) ? ns / std::sqrt(l2) : hit.ng;
   hit.uv = interpolated_uv(hit.element, b);
@@ -207,7 +219,7 @@ void MeshShape::set_tangent(uint32_t triangle, const vec3& b, Hit& hit) const {
 
 SurfaceSample MeshShape::sample_area(const vec2& u) const {
   SurfaceSample s;
-  if (!(areas().sum() > 0.0)) return s;
+  if (!(area_ > 0.f)) return s;
   const auto cell = areas().sample(static_cast<double>(u.x));
   const float x = static_cast<float>(cell.offset);
   // Heitz 2019, A Low-Distortion Map Between Triangle and Square.
@@ -224,10 +236,10 @@ SurfaceSample MeshShape::sample_area(const vec2& u) const {
   s.position = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
   s.error =
       interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) + glm::abs(b.z * c.p2));
-  s.normal = outside(c, shading_normal(cell.index, b));
+  s.normal = outside(cell.index, shading_normal(cell.index, b));
   s.uv = interpolated_uv(cell.index, b);
   s.element = cell.index;
-  s.pdf = 1.f / area();
+  s.pdf = inverse_area_;
   return s;
 }
 

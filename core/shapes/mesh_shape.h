@@ -1,6 +1,7 @@
 // Triangle meshes: what all shapes that end as triangles share.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 
 #include "core/base/distribution.h"
@@ -26,7 +27,8 @@ class MeshShape : public Shape {
   const TriangleMesh* mesh() const final { return &mesh_; }
   Bounds bounds() const final;
   void fill(const vec2& where, Hit& hit) const final;
-  float area() const final { return static_cast<float>(areas().sum()); }
+  float area() const final { return area_; }
+  float pdf_area(const SurfaceSample&) const final { return inverse_area_; }
   // Uniform over the surface: a triangle by its area, then a point in it.
   SurfaceSample sample_area(const vec2& u) const final;
 
@@ -36,7 +38,7 @@ class MeshShape : public Shape {
   };
   Corners corners(uint32_t triangle) const;
   // Geometric normal, unit; on the side of the shading normal `ns` where that is not zero.
-  vec3 outside(const Corners& c, const vec3& ns) const;
+  vec3 outside(uint32_t triangle, const vec3& ns) const;
   // Interpolated vertex normal, not normalised; zero if there is none.
   vec3 shading_normal(uint32_t triangle, const vec3& b) const;
   vec2 interpolated_uv(uint32_t triangle, const vec3& b) const;
@@ -44,13 +46,20 @@ class MeshShape : public Shape {
   void set_tangent(uint32_t triangle, const vec3& b, Hit& hit) const;
   void check(const MeshData& data, const Parameters& p) const;
   void transform(const Parameters& p);
-  size_t drop_degenerate();
+  // Normals and areas of the triangles; leaves out those without area and returns their number.
+  size_t measure();
   // Made when first asked for: only lights need it.
   const Distribution1D& areas() const;
+  void make_areas() const;
 
   TriangleMesh mesh_;
   std::vector<vec3> tangents_;
+  // Unit, one a triangle, outside by the order of the indices: kept because every hit needs one,
+  // and slivers lose their direction unless it is found in double precision.
+  std::vector<vec3> face_normals_;
+  float area_ = 0.f, inverse_area_ = 0.f;  // [m^2], [1/m^2]; both 0 without triangles
   bool flip_ = false;  // the index order gives the inside
+  mutable std::atomic<bool> areas_made_{false};
   mutable std::once_flag areas_once_;
   mutable Distribution1D areas_;
 };
