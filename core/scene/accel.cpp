@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/thread_order.h"
 
 namespace pssmlt {
 namespace {
@@ -19,6 +20,7 @@ struct UserGeometry {
 };
 
 void user_bounds(const RTCBoundsFunctionArguments* args) {
+  happens_after(args->geometryUserPtr);  // Embree builds with threads of its own
   const Bounds b = static_cast<const UserGeometry*>(args->geometryUserPtr)->shape->bounds();
   RTCBounds* const out = args->bounds_o;
   out->lower_x = b.min.x, out->lower_y = b.min.y, out->lower_z = b.min.z;
@@ -133,6 +135,7 @@ void Accel::Impl::attach(RTCScene scene, const Primitive& primitive, uint32_t id
     users.push_back(std::make_unique<UserGeometry>(UserGeometry{primitive.shape.get()}));
     rtcSetGeometryUserPrimitiveCount(geometry, 1);
     rtcSetGeometryUserData(geometry, users.back().get());
+    happens_before(users.back().get());
     rtcSetGeometryBoundsFunction(geometry, user_bounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry, user_intersect);
     rtcSetGeometryOccludedFunction(geometry, user_occluded);
