@@ -1,4 +1,4 @@
-"""Meshes and their text, for generate.py. Standard library only.
+"""Meshes and their text, for the scenes. Standard library only.
 
 A mesh is (points, normals or None, triangles); a triangle's normal is cross(p1 - p0, p2 - p0), out
 of the solid.
