@@ -211,18 +211,25 @@ void UnitSink::add(int plane, const Splats& splats, const PixelCredit& camera, d
   const bool clamped = unit_.clamp < infinity;
   weight *= unit_.factor;
   const float camera_factor = clamped ? camera_clamp(splats) : 1.f;
+  const double camera_weight = weight * static_cast<double>(camera.weight * camera_factor);
+  dvec3 camera_sum(0.0);
+  bool any_camera = false;
   for (const Splat& s : splats.all()) {
-    PixelCredit credit = camera;
-    float factor = camera_factor;
-    if (!s.from_camera) {
-      credit = map_.pick(s.raster, filter_number());
-      factor = clamped ? std::fmin(1.f, unit_.clamp / max_component(s.value)) : 1.f;
+    if (s.from_camera) {
+      const dvec3 value = dvec3(s.value) * camera_weight;
+      camera_sum += value;
+      any_camera = true;
+      if (splits_ && camera.pixel >= 0) split(plane, s.tag, camera.pixel, value);
+      continue;
     }
+    const PixelCredit credit = map_.pick(s.raster, filter_number());
     if (credit.pixel < 0) continue;
+    const float factor = clamped ? std::min(1.f, unit_.clamp / max_component(s.value)) : 1.f;
     const dvec3 value = dvec3(s.value) * (weight * static_cast<double>(credit.weight * factor));
     deposit(plane, group, credit.pixel, value);
-    split(plane, s.tag, credit.pixel, value);
+    if (splits_) split(plane, s.tag, credit.pixel, value);
   }
+  if (any_camera && camera.pixel >= 0) deposit(plane, group, camera.pixel, camera_sum);
 }
 
 void UnitSink::deposit(int plane, int group, int pixel, const dvec3& value) {

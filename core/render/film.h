@@ -145,7 +145,11 @@ class UnitSink final : public SplatSink {
     double factor = 1.0;     // what the film holds of a value: a power of two near its range
   };
   UnitSink(Film& film, BlockSums& blocks, const RasterMap& map, const Unit& unit)
-      : film_(film), blocks_(blocks), map_(map), unit_(unit) {}
+      : film_(film),
+        blocks_(blocks),
+        map_(map),
+        unit_(unit),
+        splits_(film.splits(SplitKind::length) || film.splits(SplitKind::strategy)) {}
   void add(int plane, const Splats& splats, const PixelCredit& camera, double weight,
            int group) override;
   void flush();
@@ -167,6 +171,7 @@ class UnitSink final : public SplatSink {
   BlockSums& blocks_;
   const RasterMap& map_;
   Unit unit_;
+  bool splits_;  // sums by path are kept
   std::array<Pending, pending_count> pending_{};
   RandomBlock numbers_{};
   uint32_t numbers_used_ = 0;

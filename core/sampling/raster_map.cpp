@@ -45,15 +45,27 @@ float cell_value(const Filter& filter, int x, int y, const dvec2& radius) {
   return static_cast<float>(sum / (subcells * subcells));
 }
 
-// Pixels of one axis, absolute, whose support holds the position, cut to the window.
-struct PixelRange {
-  int first, last;
+// Pixels of one axis, absolute, whose support holds a position, cut to the window, and the cell of
+// the table that it lies in for each.
+struct Candidates {
+  int first = 0, count = 0;
+  std::array<uint8_t, max_candidates> cell;
 };
-PixelRange supports(double position, double radius, int low, int high) {
-  const double first = std::ceil(position - radius - 0.5);
-  const double last = std::floor(position + radius - 0.5);
-  return {static_cast<int>(std::max(first, static_cast<double>(low))),
-          static_cast<int>(std::min(last, high - 1.0))};
+void find_candidates(double position, double radius, int low, int high, Candidates& found) {
+  const int first = static_cast<int>(std::max(std::ceil(position - radius - 0.5), double(low)));
+  const int last = static_cast<int>(std::min(std::floor(position + radius - 0.5), high - 1.0));
+  found.first = first;
+  found.count = 0;
+  for (int p = first; p <= last; ++p) {
+    const double at = ((position - (p + 0.5)) / radius + 1.0) * (0.5 * cells);
+    // At the very ends of the support, where the filter is 0.
+    if (!(at >= 0.0 && at < cells)) {
+      if (found.count > 0) break;
+      found.first = p + 1;
+      continue;
+    }
+    found.cell[static_cast<size_t>(found.count++)] = static_cast<uint8_t>(at);
+  }
 }
 
 }  // namespace
@@ -156,34 +168,42 @@ PixelCredit RasterMap::pick(const dvec2& raster, float u) const {
     if (x < low.x || y < low.y || x >= high.x || y >= high.y) return {};
     return {(y - low.y) * width + x - low.x, 1.f};
   }
-  const PixelRange xs = supports(raster.x, radius_.x, low.x, high.x);
-  const PixelRange ys = supports(raster.y, radius_.y, low.y, high.y);
-  const auto value = [&](int x, int y) { return filter_value(raster - dvec2(x + 0.5, y + 0.5)); };
-  double sum = 0.0;
-  std::array<double, max_candidates> row_sums{};
-  for (int y = ys.first; y <= ys.last; ++y) {
-    double& row_sum = row_sums[static_cast<size_t>(y - ys.first)];
-    for (int x = xs.first; x <= xs.last; ++x) row_sum += std::abs(value(x, y));
+  Candidates xs, ys;
+  find_candidates(raster.x, radius_.x, low.x, high.x, xs);
+  find_candidates(raster.y, radius_.y, low.y, high.y, ys);
+  const auto value = [&](int i, int j) {
+    return values_[static_cast<size_t>(ys.cell[static_cast<size_t>(j)]) * cells +
+                   xs.cell[static_cast<size_t>(i)]];
+  };
+  std::array<float, max_candidates> row_sums;
+  float sum = 0.f;
+  int last = 0;  // row with a value
+  for (int j = 0; j < ys.count; ++j) {
+    float row_sum = 0.f;
+    for (int i = 0; i < xs.count; ++i) row_sum += std::abs(value(i, j));
+    row_sums[static_cast<size_t>(j)] = row_sum;
     sum += row_sum;
+    if (row_sum > 0.f) last = j;
   }
-  if (!(sum > 0.0)) return {};
-  double left = u * sum;
+  if (!(sum > 0.f)) return {};
+  // By inversion, first among the rows; where rounding leaves something over, the last one with a
+  // value stays chosen.
+  float left = u * sum;
   PixelCredit chosen;
-  for (int y = ys.first; y <= ys.last; ++y) {
-    const double row_sum = row_sums[static_cast<size_t>(y - ys.first)];
-    if (row_sum == 0.0) continue;
-    if (left >= row_sum && y < ys.last) {
+  for (int j = 0; j < ys.count; ++j) {
+    const float row_sum = row_sums[static_cast<size_t>(j)];
+    if (row_sum == 0.f) continue;
+    if (left >= row_sum && j < last) {
       left -= row_sum;
       continue;
     }
-    for (int x = xs.first; x <= xs.last; ++x) {
-      const double f = value(x, y);
-      if (f == 0.0) continue;
-      // The last candidate stays chosen where rounding leaves something over.
-      chosen = {(y - low.y) * width + x - low.x,
-                static_cast<float>((f < 0.0 ? -sum : sum) / integral_)};
+    for (int i = 0; i < xs.count; ++i) {
+      const float f = value(i, j);
+      if (f == 0.f) continue;
+      chosen = {(ys.first + j - low.y) * width + xs.first + i - low.x,
+                static_cast<float>((f < 0.f ? -sum : sum) / integral_)};
       left -= std::abs(f);
-      if (left < 0.0) return chosen;
+      if (left < 0.f) return chosen;
     }
   }
   return chosen;
