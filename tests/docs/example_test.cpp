@@ -168,11 +168,11 @@ void expect_same(const std::vector<std::vector<double>>& a,
 TEST(Example, BuiltAgainstTheInstalledPackageAgreesUnderEverySampler) {
   const Folder folder;
   ASSERT_TRUE(install_and_build(folder));
-  const auto sobol = render(folder, "--sampler sobol --spp 128");
+  const auto sobol = render(folder, "--sampler sobol --spp 192");
   // Many large steps: this scene is so easy that small ones would only add noise.
   const auto chains =
-      render(folder, "--sampler pssmlt --set sampler.largestepprobability=0.75 --spp 640");
-  const auto path = render(folder, "--integrator path --sampler sobol --spp 128");
+      render(folder, "--sampler pssmlt --set sampler.largestepprobability=0.75 --spp 960");
+  const auto path = render(folder, "--integrator path --sampler sobol --spp 192");
   expect_same(sobol, chains, "naive_path under sobol and under pssmlt");
   expect_same(sobol, path, "naive_path and path");
 }
