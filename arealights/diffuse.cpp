@@ -71,6 +71,7 @@ class DiffuseAreaLight final : public Light {
   }
 
   std::optional<Toward> toward(const vec3& reference, const vec2& u) const override {
+    if (!two_sided_ && !shape_->may_face(reference)) return std::nullopt;
     const auto s = shape_->sample_toward(reference, u);
     if (!s) return std::nullopt;
     Toward t;

@@ -66,6 +66,12 @@ class Shape {
   // A point as seen from a reference, .pdf in [1/sr]; the default converts sample_area. nullopt
   // where the point is seen edge-on or from inside its own plane.
   virtual std::optional<SurfaceSample> sample_toward(const vec3& reference, const vec2& u) const;
+  // False only if the outside of no point faces `reference`, so that a lamp that is dark inside need
+  // not draw a point in vain.
+  virtual bool may_face(const vec3& reference) const {
+    (void)reference;
+    return true;
+  }
   // Densities of sample_area [1/m^2] and of sample_toward [1/sr at the reference] at a point of this
   // surface, of which position, normal, uv and element are read. The defaults: 1 / area, and its
   // conversion.

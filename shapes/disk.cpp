@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/plugin/plugin.h"
+#include "core/shapes/facing_plane.h"
 #include "core/shapes/quadric.h"
 
 namespace pssmlt {
@@ -27,7 +28,16 @@ class Disk final : public QuadricShape {
     r_ = static_cast<double>(radius);
     inner_ = static_cast<double>(inner);
     phimax_ = two_pi * std::min(static_cast<double>(phimax), 360.0) / 360.0;
+    if (p.describing()) return;
+    Hit hit;
+    fill(vec2(0.f), hit);
+    plane_ = {hit.position, hit.ng};
+    for (const float u : {.25f, .5f, .75f, 1.f}) {
+      fill(vec2(u, 0.f), hit);
+      plane_.slack = std::max(plane_.slack, 2.f * plane_.slack_of(hit.position));
+    }
   }
+  bool may_face(const vec3& reference) const override { return plane_.may_face(reference); }
 
  protected:
   Local at(const dvec2& uv) const override {
@@ -65,6 +75,7 @@ class Disk final : public QuadricShape {
   }
 
  private:
+  FacingPlane plane_;
   double height_ = 0.0, r_ = 1.0, inner_ = 0.0, phimax_ = two_pi;
 };
 

@@ -59,6 +59,7 @@ MeshShape::MeshShape(MeshData data, const Parameters& p) {
   flip_ = p.reverse_orientation() != p.transform().swaps_handedness();
   transform(p);
   const size_t dropped = measure();
+  find_plane();
   if (dropped != 0)
     log_debug(to_string(p.where()) + ": " + p.owner() + ": " + std::to_string(dropped) +
               " triangles without area left out");
@@ -117,6 +118,24 @@ size_t MeshShape::measure() {
   area_ = static_cast<float>(sum);
   inverse_area_ = area_ > 0.f ? 1.f / area_ : 0.f;
   return dropped;
+}
+
+void MeshShape::find_plane() {
+  if (mesh_.triangles.empty()) return;
+  const auto normal_at = [this](uint32_t triangle, int corner) {
+    return outside(triangle, mesh_.normals.empty()
+                                 ? vec3(0.f)
+                                 : mesh_.normals[mesh_.triangles[triangle][corner]]);
+  };
+  FacingPlane plane{mesh_.positions[mesh_.triangles[0].x], normal_at(0, 0)};
+  for (uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (glm::distance(normal_at(i, k), plane.normal) > FacingPlane::angle) return;
+      const float slack = plane.slack_of(mesh_.positions[mesh_.triangles[i][k]]);
+      plane.slack = std::max(plane.slack, slack);
+    }
+  }
+  plane_ = plane;
 }
 
 const Distribution1D& MeshShape::areas() const {

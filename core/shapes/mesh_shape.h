@@ -7,6 +7,7 @@
 #include "core/base/distribution.h"
 #include "core/scene/parameters.h"
 #include "core/shape.h"
+#include "core/shapes/facing_plane.h"
 
 namespace pssmlt {
 
@@ -31,6 +32,7 @@ class MeshShape : public Shape {
   float pdf_area(const SurfaceSample&) const final { return inverse_area_; }
   // Uniform over the surface: a triangle by its area, then a point in it.
   SurfaceSample sample_area(const vec2& u) const final;
+  bool may_face(const vec3& reference) const final { return plane_.may_face(reference); }
 
  private:
   struct Corners {
@@ -48,6 +50,7 @@ class MeshShape : public Shape {
   void transform(const Parameters& p);
   // Normals and areas of the triangles; leaves out those without area and returns their number.
   size_t measure();
+  void find_plane();
   // Made when first asked for: only lights need it.
   const Distribution1D& areas() const;
   void make_areas() const;
@@ -57,6 +60,7 @@ class MeshShape : public Shape {
   // Unit, one a triangle, outside by the order of the indices: kept because every hit needs one,
   // and slivers lose their direction unless it is found in double precision.
   std::vector<vec3> face_normals_;
+  FacingPlane plane_;
   float area_ = 0.f, inverse_area_ = 0.f;  // [m^2], [1/m^2]; both 0 without triangles
   bool flip_ = false;  // the index order gives the inside
   mutable std::atomic<bool> areas_made_{false};

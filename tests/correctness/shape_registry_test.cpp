@@ -83,6 +83,27 @@ TEST_P(AnyShape, SolidAngleIsFoundBothWays) {
   }
 }
 
+// Where may_face() says no, no sampled point shows its outside; about half of all points around a
+// flat shape are behind it.
+TEST_P(AnyShape, FacesWhatItSays) {
+  const auto shape = default_shape(GetParam());
+  ASSERT_NE(shape, nullptr);
+  RandomStream random(12, RandomUse::test);
+  int behind = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const float distance = 3.f * random.next();
+    const vec3 reference = distance * uniform_sphere(draw2(random));
+    if (shape->may_face(reference)) continue;
+    ++behind;
+    for (int k = 0; k < 8; ++k) {
+      const SurfaceSample s = shape->sample_area(draw2(random));
+      ASSERT_LE(glm::dot(s.normal, reference - s.position), 0.f);
+    }
+  }
+  const bool triangle = shape->mesh() && shape->mesh()->triangles.size() == 1;
+  EXPECT_GT(behind, triangle ? 700 : -1);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, AnyShape, testing::ValuesIn(Registry::instance().names("shape")),
                          [](const auto& test) { return test.param; });
 
