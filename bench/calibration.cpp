@@ -1,6 +1,6 @@
 // How fast this machine traces: incoherent single rays through 200,000 random triangles in a unit
-// cube with bare Embree, in rays per second of wall time on one thread and on two. Published figures
-// of sample rates and errors can be translated by the ratio of this number.
+// cube with bare Embree, in rays per second of wall time on one thread and on two. Published
+// figures of sample rates and errors can be translated by the ratio of this number.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 

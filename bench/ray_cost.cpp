@@ -49,9 +49,7 @@ int run_samples(const BuiltScene& built, uint32_t thread, int limit) {
 
 double in_two_threads(const std::function<void(uint32_t)>& body) {
   const auto start = Clock::now();
-  {
-    const std::jthread first(body, 0u), second(body, 1u);
-  }
+  { const std::jthread first(body, 0u), second(body, 1u); }
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -83,13 +81,14 @@ void measure(const std::string& scene, const std::string& integrator) {
   double full = 1e30, bare = 1e30;
   for (int repeat = 0; repeat < 5; ++repeat) {
     full = std::min(full, in_two_threads([&](uint32_t t) { run_samples(built, t, samples); }));
-    bare = std::min(bare,
-                    in_two_threads([&](uint32_t t) { replay(built.scene->accel(), rays[t]); }));
+    bare =
+        std::min(bare, in_two_threads([&](uint32_t t) { replay(built.scene->accel(), rays[t]); }));
   }
-  fmt::print("{:10} {:8.0f} K samples/s  {:6.2f} rays/sample  {:6.2f} Mray/s  bare Embree {:6.2f} "
-             "Mray/s  ratio {:.2f}  outside Embree {:.0f} ns/ray\n",
-             integrator, 2e-3 * samples / full, count / (2.0 * samples), count / full * 1e-6,
-             count / bare * 1e-6, bare / full, (full - bare) / count * 2.0 * 1e9);
+  fmt::print(
+      "{:10} {:8.0f} K samples/s  {:6.2f} rays/sample  {:6.2f} Mray/s  bare Embree {:6.2f} "
+      "Mray/s  ratio {:.2f}  outside Embree {:.0f} ns/ray\n",
+      integrator, 2e-3 * samples / full, count / (2.0 * samples), count / full * 1e-6,
+      count / bare * 1e-6, bare / full, (full - bare) / count * 2.0 * 1e9);
 }
 
 }  // namespace

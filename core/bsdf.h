@@ -21,7 +21,7 @@ struct BsdfSample {
   float pdf_reverse = 0.f;  // of sampling wo given wi, same measure
   bool delta = false;
   bool transmitted = false;
-  float eta = 1.f;          // ratio of indices seen by a transmitted ray, for roulette
+  float eta = 1.f;  // ratio of indices seen by a transmitted ray, for roulette
 };
 
 // Deterministic once made: everything random about the material was drawn by Material::bsdf.

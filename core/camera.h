@@ -8,10 +8,10 @@ namespace pssmlt {
 
 // The picture as cameras see it.
 struct RasterFrame {
-  ivec2 resolution{1, 1};         // full picture [pixels]
-  ivec2 crop_min{0, 0};           // rendered window, inclusive
-  ivec2 crop_max{1, 1};           // exclusive
-  vec2 filter_radius{0.5f, 0.5f}; // [pixels]: light that lands this far outside still counts
+  ivec2 resolution{1, 1};          // full picture [pixels]
+  ivec2 crop_min{0, 0};            // rendered window, inclusive
+  ivec2 crop_max{1, 1};            // exclusive
+  vec2 filter_radius{0.5f, 0.5f};  // [pixels]: light that lands this far outside still counts
   ivec2 crop_size() const { return crop_max - crop_min; }
   double pixels() const { return static_cast<double>(crop_size().x) * crop_size().y; }
 };

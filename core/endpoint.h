@@ -31,12 +31,12 @@ struct EndpointPoint {
 // A ray that leaves the endpoint.
 struct Emission {
   EndpointPoint from;
-  vec3 error{0.f};           // of the position [m]
-  vec3 direction{0.f};       // unit, away from the endpoint
-  Rgb value{0.f};            // [W/(m^2 sr)] or importance; see above for delta endpoints
-  float cosine = 1.f;        // |normal . direction|; 1 for delta positions and infinite endpoints
-  float pdf_position = 0.f;  // [1/m^2]; infinite: on the disk facing the scene
-  float pdf_direction = 0.f; // [1/sr]
+  vec3 error{0.f};            // of the position [m]
+  vec3 direction{0.f};        // unit, away from the endpoint
+  Rgb value{0.f};             // [W/(m^2 sr)] or importance; see above for delta endpoints
+  float cosine = 1.f;         // |normal . direction|; 1 for delta positions and infinite endpoints
+  float pdf_position = 0.f;   // [1/m^2]; infinite: on the disk facing the scene
+  float pdf_direction = 0.f;  // [1/sr]
   // Throughput of the ray: value * cosine / (pdf_position * pdf_direction).
   Rgb weight() const { return value * (cosine / (pdf_position * pdf_direction)); }
 };
@@ -45,23 +45,23 @@ struct Emission {
 // the ray that leaves it toward the reference.
 struct Toward {
   EndpointPoint at;
-  vec3 error{0.f};           // of at.position [m]
-  vec3 wi{0.f};              // unit, from the reference to the endpoint
-  float distance = 0.f;      // [m]; infinity for infinite endpoints
-  Rgb value{0.f};            // emitted from the endpoint toward the reference
-  float pdf_toward = 0.f;    // [1/sr] at the reference; delta position: distance^2, direction: 1
-  float cosine = 1.f;        // at the endpoint, as in Emission
-  float pdf_position = 0.f;  // [1/m^2], of emit()
-  float pdf_direction = 0.f; // [1/sr], of emit()
-  dvec2 raster{0.0};         // cameras: where the connection lands [pixels]
+  vec3 error{0.f};            // of at.position [m]
+  vec3 wi{0.f};               // unit, from the reference to the endpoint
+  float distance = 0.f;       // [m]; infinity for infinite endpoints
+  Rgb value{0.f};             // emitted from the endpoint toward the reference
+  float pdf_toward = 0.f;     // [1/sr] at the reference; delta position: distance^2, direction: 1
+  float cosine = 1.f;         // at the endpoint, as in Emission
+  float pdf_position = 0.f;   // [1/m^2], of emit()
+  float pdf_direction = 0.f;  // [1/sr], of emit()
+  dvec2 raster{0.0};          // cameras: where the connection lands [pixels]
 };
 
 // Value and densities of emit() at a given point and direction.
 struct EmissionValue {
   Rgb value{0.f};
   float cosine = 1.f;
-  float pdf_position = 0.f;  // [1/m^2]
-  float pdf_direction = 0.f; // [1/sr]
+  float pdf_position = 0.f;   // [1/m^2]
+  float pdf_direction = 0.f;  // [1/sr]
 };
 
 class Endpoint {

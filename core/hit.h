@@ -9,10 +9,10 @@ struct Primitive;
 
 // All in render space. Directions stored elsewhere point away from the surface.
 struct Hit {
-  vec3 position{0.f};   // [m]
-  vec3 error{0.f};      // bound on the rounding error of position, per axis [m]
-  vec3 ng{0.f};         // geometric normal, unit, on the side that the shape calls outside
-  vec3 ns{0.f};         // shading normal, unit, in the hemisphere of ng
+  vec3 position{0.f};         // [m]
+  vec3 error{0.f};            // bound on the rounding error of position, per axis [m]
+  vec3 ng{0.f};               // geometric normal, unit, on the side that the shape calls outside
+  vec3 ns{0.f};               // shading normal, unit, in the hemisphere of ng
   vec3 dpdu{0.f}, dpdv{0.f};  // [m per unit of u, v]
   vec3 dndu{0.f}, dndv{0.f};  // change of the shading normal
   vec2 uv{0.f};

@@ -24,8 +24,8 @@ class SplatSink {
   // Adds weight * every splat to a plane of the sampler. Camera splats go to `camera` (the credit
   // that PrimarySampleOwner::credit() gave for this u), light splats to a pixel of the filter's
   // support. `group` in [0, group_count).
-  virtual void add(int plane, const Splats& splats, const struct PixelCredit& camera,
-                   double weight, int group) = 0;
+  virtual void add(int plane, const Splats& splats, const struct PixelCredit& camera, double weight,
+                   int group) = 0;
 
  protected:
   ~SplatSink() = default;
@@ -36,7 +36,7 @@ struct Worker {
   class PrimarySampleOwner& sample;  // core/sampling/primary_sample_owner.h
   Splats& splats;
   Workspace& workspace;
-  class Evaluator& evaluator;        // core/sampling/evaluator.h: calls the integrator safely
+  class Evaluator& evaluator;  // core/sampling/evaluator.h: calls the integrator safely
 };
 
 // Everything start() may use.

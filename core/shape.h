@@ -15,15 +15,18 @@ namespace pssmlt {
 
 // Triangles with optional per-vertex data; index order gives the outside (right hand rule).
 struct TriangleMesh {
-  std::vector<vec3> positions;       // [m]
-  std::vector<vec3> normals;         // empty or one a vertex, unit
-  std::vector<vec2> uvs;             // empty or one a vertex
+  std::vector<vec3> positions;  // [m]
+  std::vector<vec3> normals;    // empty or one a vertex, unit
+  std::vector<vec2> uvs;        // empty or one a vertex
   std::vector<glm::uvec3> triangles;
 };
 
 struct Bounds {
   vec3 min{infinity}, max{-infinity};
-  void add(const vec3& p) { min = glm::min(min, p); max = glm::max(max, p); }
+  void add(const vec3& p) {
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+  }
 };
 
 // Where a ray meets a user geometry: distance, the shape's own two coordinates there (`where` of
@@ -66,15 +69,15 @@ class Shape {
   // A point as seen from a reference, .pdf in [1/sr]; the default converts sample_area. nullopt
   // where the point is seen edge-on or from inside its own plane.
   virtual std::optional<SurfaceSample> sample_toward(const vec3& reference, const vec2& u) const;
-  // False only if the outside of no point faces `reference`, so that a lamp that is dark inside need
-  // not draw a point in vain.
+  // False only if the outside of no point faces `reference`, so that a lamp that is dark inside
+  // need not draw a point in vain.
   virtual bool may_face(const vec3& reference) const {
     (void)reference;
     return true;
   }
-  // Densities of sample_area [1/m^2] and of sample_toward [1/sr at the reference] at a point of this
-  // surface, of which position, normal, uv and element are read. The defaults: 1 / area, and its
-  // conversion.
+  // Densities of sample_area [1/m^2] and of sample_toward [1/sr at the reference] at a point of
+  // this surface, of which position, normal, uv and element are read. The defaults: 1 / area, and
+  // its conversion.
   virtual float pdf_area(const SurfaceSample& at) const;
   virtual float pdf_toward(const vec3& reference, const SurfaceSample& at) const;
 };

@@ -85,13 +85,19 @@ class Bdpt final : public Integrator {
   explicit Bdpt(Parameters& p)
       : limits_(p),
         // Balance has the smaller error at equal time on the scenes of this project, by 1 to 10 %.
-        mis_(p.choice("heuristic", "balance", heuristics, "weights of the strategies (Veach 1997, "
-                      "section 9.2)") == "power" ? Mis::Heuristic::power : Mis::Heuristic::balance),
-        unweighted_(p.flag("unweighted", false, "every strategy counts in full, to look at "
+        mis_(p.choice("heuristic", "balance", heuristics,
+                      "weights of the strategies (Veach 1997, "
+                      "section 9.2)") == "power"
+                 ? Mis::Heuristic::power
+                 : Mis::Heuristic::balance),
+        unweighted_(p.flag("unweighted", false,
+                           "every strategy counts in full, to look at "
                            "strategies one by one; the picture is not their sum")),
-        only_s_(p.integer("s", -1, "vertices", "only strategies with this many light vertices; "
+        only_s_(p.integer("s", -1, "vertices",
+                          "only strategies with this many light vertices; "
                           "-1: all")),
-        only_t_(p.integer("t", -1, "vertices", "only strategies with this many camera vertices; "
+        only_t_(p.integer("t", -1, "vertices",
+                          "only strategies with this many camera vertices; "
                           "-1: all")) {
     const bool strategies = p.flag("visualizestrategies", false,
                                    "not supported: ask the renderer for images by strategy");
@@ -211,8 +217,8 @@ void Bdpt::hit(const Subpath& camera, int bounces, const Light& light, const End
     const vec3& from = camera.position(bounces);
     connect = p * as_double(light.pdf_toward(from, at));
     if (v) {
-      connect *= as_double(cosine(v->surface, direction)) /
-                 as_double(length_squared(at.position - from));
+      connect *=
+          as_double(cosine(v->surface, direction)) / as_double(length_squared(at.position - from));
     }
   }
   const double emit = p * as_double(e.pdf_position) * as_double(e.pdf_direction);

@@ -75,8 +75,8 @@ void LightTracer::add_vertex(const PathVertex& v, int k, PrimarySample& u, Splat
   const Surface& s = v.surface;
   const auto lens = scene_->camera().toward(s.hit.position, lens_connection_numbers(u, k));
   if (!lens || !(lens->pdf_toward > 0.f)) return;
-  const Rgb value = v.throughput * s.f_cos(lens->wi, Transport::importance) * lens->value /
-                    lens->pdf_toward;
+  const Rgb value =
+      v.throughput * s.f_cos(lens->wi, Transport::importance) * lens->value / lens->pdf_toward;
   if (is_black(value)) return;
   out.light(lens->raster, scene_->visibility(s.segment(*lens)) * value,
             {static_cast<uint16_t>(k), static_cast<uint8_t>(std::min(k + 1, 255)), 1});

@@ -49,7 +49,7 @@ class Path final : public Integrator {
   // Where the path stands: the ray to trace and what came before it.
   struct Walk {
     Ray ray;
-    vec3 from{0.f};           // last vertex
+    vec3 from{0.f};  // last vertex
     Rgb throughput{1.f};
     float pdf = 0.f;          // of the ray's direction [1/sr]; 0: no light could have been drawn
     float eta_squared = 1.f;  // product of squared index ratios, which roulette looks through

@@ -28,9 +28,7 @@ struct Frame {
     const vec3 unit = along / std::sqrt(l2);
     return {unit, glm::cross(normal, unit), normal};
   }
-  vec3 to_local(const vec3& v) const {
-    return {glm::dot(v, s), glm::dot(v, t), glm::dot(v, n)};
-  }
+  vec3 to_local(const vec3& v) const { return {glm::dot(v, s), glm::dot(v, t), glm::dot(v, n)}; }
   vec3 to_world(const vec3& v) const { return v.x * s + v.y * t + v.z * n; }
 };
 

@@ -28,7 +28,16 @@ inline RandomBlock philox(uint64_t seed, RandomBlock c) {
 
 // What a random number is for; a word of every counter, so that no two uses share numbers.
 enum class RandomUse : uint32_t {
-  sample, bootstrap, resample, mutate, fresh, decide, accept, filter, auxiliary, test
+  sample,
+  bootstrap,
+  resample,
+  mutate,
+  fresh,
+  decide,
+  accept,
+  filter,
+  auxiliary,
+  test
 };
 
 // 32-bit fixed point to float in [0, 1).

@@ -20,7 +20,12 @@ using Set = std::bitset<max_letters>;
 
 // Bits of letters; those of lights in the order of LightLetter.
 enum Letter : uint8_t {
-  area = 1, infinite = 2, delta_light = 4, diffuse = 8, specular = 16, eye = 32
+  area = 1,
+  infinite = 2,
+  delta_light = 4,
+  diffuse = 8,
+  specular = 16,
+  eye = 32
 };
 
 uint8_t light_mask(LightLetter light) {
@@ -30,15 +35,24 @@ uint8_t vertex_mask(bool delta) { return delta ? specular : diffuse; }
 
 uint8_t mask_of(char c) {
   switch (c) {
-    case 'A': return area;
-    case 'I': return infinite;
-    case 'P': return delta_light;
-    case 'L': return area | infinite | delta_light;
-    case 'D': return diffuse;
-    case 'S': return specular;
-    case '.': return diffuse | specular;
-    case 'E': return eye;
-    default: return 0;
+    case 'A':
+      return area;
+    case 'I':
+      return infinite;
+    case 'P':
+      return delta_light;
+    case 'L':
+      return area | infinite | delta_light;
+    case 'D':
+      return diffuse;
+    case 'S':
+      return specular;
+    case '.':
+      return diffuse | specular;
+    case 'E':
+      return eye;
+    default:
+      return 0;
   }
 }
 

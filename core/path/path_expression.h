@@ -81,7 +81,7 @@ class PathLimits {
   PathLimits() = default;
   explicit PathLimits(Parameters& parameters);
   int min_bounces = 0;
-  int max_bounces = 5;      // scattering vertices, as pbrt counts
+  int max_bounces = 5;  // scattering vertices, as pbrt counts
   PathExpression paths;
   bool in_range(int bounces) const { return bounces >= min_bounces && bounces <= max_bounces; }
 };

@@ -8,8 +8,8 @@ constexpr int deepest = 65535;  // PathTag counts in 16 bits
 }  // namespace
 
 PathLimits::PathLimits(Parameters& p) {
-  min_bounces = p.integer("mindepth", 0, "bounces",
-                          "paths with fewer scattering vertices are left out");
+  min_bounces =
+      p.integer("mindepth", 0, "bounces", "paths with fewer scattering vertices are left out");
   max_bounces = p.integer("maxdepth", 5, "bounces",
                           "paths with more scattering vertices are left out; 0: emission only");
   const std::string text =

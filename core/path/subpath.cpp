@@ -49,8 +49,7 @@ MisPartial SubpathTracer::first_mis(const Side& side, const Subpath& path, const
   const double p = static_cast<double>(path.probability);
   const double connect =
       static_cast<double>(side.endpoint.pdf_toward(v.surface.hit.position, e.from));
-  const double emit =
-      static_cast<double>(e.pdf_position) * static_cast<double>(e.pdf_direction);
+  const double emit = static_cast<double>(e.pdf_position) * static_cast<double>(e.pdf_direction);
   return mis_.first(p * connect, p * emit, static_cast<double>(e.cosine),
                     static_cast<double>(cos_vertex), side.hittable);
 }
@@ -120,18 +119,18 @@ bool SubpathTracer::scatter(PrimarySample& u, const Side& side, const Surface& s
 MisPartial SubpathTracer::next_mis(const Walk& w, const Subpath& path, int k,
                                    float cos_vertex) const {
   const vec3 edge = path.position(k) - path.position(k - 1);
-  return mis_.next(path[k - 1].mis, static_cast<double>(w.pdf),
-                   static_cast<double>(w.pdf_reverse), w.delta, static_cast<double>(w.cosine),
-                   static_cast<double>(cos_vertex), static_cast<double>(length_squared(edge)));
+  return mis_.next(path[k - 1].mis, static_cast<double>(w.pdf), static_cast<double>(w.pdf_reverse),
+                   w.delta, static_cast<double>(w.cosine), static_cast<double>(cos_vertex),
+                   static_cast<double>(length_squared(edge)));
 }
 
 // The camera subpath's edge k left the scene: its end is a direction, density per solid angle.
 Escape SubpathTracer::escape(const Walk& w, const Subpath& path, int k) const {
   Escape out{k - 1, w.ray.direction, w.throughput, {}, w.state};
   if (k > 1) {
-    out.mis = mis_.next(path[k - 1].mis, static_cast<double>(w.pdf),
-                        static_cast<double>(w.pdf_reverse), w.delta,
-                        static_cast<double>(w.cosine), 1.0, 1.0);
+    out.mis =
+        mis_.next(path[k - 1].mis, static_cast<double>(w.pdf), static_cast<double>(w.pdf_reverse),
+                  w.delta, static_cast<double>(w.cosine), 1.0, 1.0);
   }
   return out;
 }

@@ -36,10 +36,10 @@ struct Escape {
 class Subpath {
  public:
   Emission start;
-  bool started = false;           // false: the endpoint emits nothing for these numbers
-  const Light* light = nullptr;   // of light subpaths
-  float probability = 1.f;        // of choosing it
-  EndpointTraits traits;          // of the endpoint
+  bool started = false;          // false: the endpoint emits nothing for these numbers
+  const Light* light = nullptr;  // of light subpaths
+  float probability = 1.f;       // of choosing it
+  EndpointTraits traits;         // of the endpoint
   Escape escape;
 
   int size() const { return size_; }
@@ -101,7 +101,7 @@ class SubpathTracer {
     Stream stream;
     Transport mode;
     const Endpoint& endpoint;
-    bool hittable;     // paths from the other side can end on the endpoint
+    bool hittable;  // paths from the other side can end on the endpoint
     int max_vertices;
     bool camera() const { return mode == Transport::radiance; }
   };
@@ -112,7 +112,7 @@ class SubpathTracer {
     float begin = 0.f;        // largest component of the start's throughput
     float eta_squared = 1.f;  // product of squared index ratios
     float pdf = 0.f, pdf_reverse = 0.f;
-    float cosine = 0.f;       // geometric, at the vertex that was left
+    float cosine = 0.f;  // geometric, at the vertex that was left
     bool delta = false;
     PathExpression::State state = 0;
   };

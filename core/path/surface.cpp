@@ -40,8 +40,8 @@ Surface::Scattering Surface::scattering(const vec3& wi, Transport mode) const {
 std::optional<ScatterSample> Surface::sample(float u_lobe, const vec2& u, Transport mode) const {
   const auto s = bsdf_->sample(wo_local_, u_lobe, u, mode);
   if (!s || s->wi.z == 0.f) return std::nullopt;
-  ScatterSample out{frame_.to_world(s->wi), s->weight, s->pdf,         s->pdf_reverse,
-                    s->delta,               s->transmitted, s->eta};
+  ScatterSample out{frame_.to_world(s->wi), s->weight, s->pdf, s->pdf_reverse, s->delta,
+                    s->transmitted,         s->eta};
   if (mode == Transport::importance) {
     out.weight *= adjoint_cosine(out.wi) / std::abs(s->wi.z);
   }

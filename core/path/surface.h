@@ -13,10 +13,10 @@
 namespace pssmlt {
 
 struct ScatterSample {
-  vec3 wi{0.f};              // unit, render space
-  Rgb weight{0.f};           // f |cos| / pdf, shading-normal correction included [1]
-  float pdf = 0.f;           // [1/sr]; delta: probability [1]
-  float pdf_reverse = 0.f;   // same measure
+  vec3 wi{0.f};             // unit, render space
+  Rgb weight{0.f};          // f |cos| / pdf, shading-normal correction included [1]
+  float pdf = 0.f;          // [1/sr]; delta: probability [1]
+  float pdf_reverse = 0.f;  // same measure
   bool delta = false;
   bool transmitted = false;
   float eta = 1.f;

@@ -32,9 +32,9 @@ struct PluginAlias {
 
 // What the constructor gets besides its parameters.
 struct PluginArguments {
-  const RasterFrame* frame = nullptr;            // cameras
-  std::shared_ptr<const Shape> shape;            // area lights
-  std::shared_ptr<const Texture<float>> alpha;   // area lights: cut-outs of their shape
+  const RasterFrame* frame = nullptr;           // cameras
+  std::shared_ptr<const Shape> shape;           // area lights
+  std::shared_ptr<const Texture<float>> alpha;  // area lights: cut-outs of their shape
 };
 
 struct PluginDescriptor {
@@ -83,18 +83,30 @@ void* create_texture(Parameters& p, const PluginArguments&) {
 #define PSSMLT_EXPORT extern "C" __attribute__((visibility("default")))
 
 // Registers a plugin; the file's last line. Class needs `static constexpr const char* summary`.
-#define PSSMLT_PLUGIN(Kind, plugin_name, Class, ...)                                           \
-  static const ::pssmlt::PluginAlias pssmlt_aliases[] = {{nullptr, ""}, __VA_ARGS__};          \
-  PSSMLT_EXPORT const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor;                     \
-  const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor = {                                \
-      ::pssmlt::abi_version, __VERSION__, #Kind, plugin_name, Class::summary,                  \
-      pssmlt_aliases + 1, static_cast<int>(sizeof(pssmlt_aliases) / sizeof(pssmlt_aliases[0])) - 1, \
-      &::pssmlt::PluginKind<::pssmlt::Kind>::create<Class>, nullptr};
+#define PSSMLT_PLUGIN(Kind, plugin_name, Class, ...)                                  \
+  static const ::pssmlt::PluginAlias pssmlt_aliases[] = {{nullptr, ""}, __VA_ARGS__}; \
+  PSSMLT_EXPORT const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor;            \
+  const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor = {                       \
+      ::pssmlt::abi_version,                                                          \
+      __VERSION__,                                                                    \
+      #Kind,                                                                          \
+      plugin_name,                                                                    \
+      Class::summary,                                                                 \
+      pssmlt_aliases + 1,                                                             \
+      static_cast<int>(sizeof(pssmlt_aliases) / sizeof(pssmlt_aliases[0])) - 1,       \
+      &::pssmlt::PluginKind<::pssmlt::Kind>::create<Class>,                           \
+      nullptr};
 
 // Registers a texture that exists for float and for Rgb: Class is a template over the value.
-#define PSSMLT_TEXTURE_PLUGIN(plugin_name, Class)                                              \
-  PSSMLT_EXPORT const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor;                     \
-  const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor = {                                \
-      ::pssmlt::abi_version, __VERSION__, "Texture", plugin_name, Class<float>::summary,       \
-      nullptr, 0, &::pssmlt::create_texture<Class<float>, float>,                              \
+#define PSSMLT_TEXTURE_PLUGIN(plugin_name, Class)                          \
+  PSSMLT_EXPORT const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor; \
+  const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor = {            \
+      ::pssmlt::abi_version,                                               \
+      __VERSION__,                                                         \
+      "Texture",                                                           \
+      plugin_name,                                                         \
+      Class<float>::summary,                                               \
+      nullptr,                                                             \
+      0,                                                                   \
+      &::pssmlt::create_texture<Class<float>, float>,                      \
       &::pssmlt::create_texture<Class<::pssmlt::Rgb>, ::pssmlt::Rgb>};

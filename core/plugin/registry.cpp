@@ -79,9 +79,9 @@ const PluginDescriptor* Registry::load(const std::string& file, const Location& 
   const auto* const descriptor = static_cast<const PluginDescriptor*>(symbol);
   // The number comes first in the descriptor, so that it can be read whatever the rest looks like.
   if (descriptor->abi != abi_version) {
-    throw Error(where, file + " was built for plugin interface " +
-                           std::to_string(descriptor->abi) + ", this program has " +
-                           std::to_string(abi_version) + ": rebuild the plugin");
+    throw Error(where, file + " was built for plugin interface " + std::to_string(descriptor->abi) +
+                           ", this program has " + std::to_string(abi_version) +
+                           ": rebuild the plugin");
   }
   if (std::string_view(descriptor->compiler) != __VERSION__) {
     throw Error(where, file + " was built with compiler " + descriptor->compiler +
@@ -111,8 +111,8 @@ FoundPlugin Registry::find(const std::string& kind, const std::string& name,
       return candidate;
     }
   }
-  throw Error(where, kind + " \"" + name + "\" is unknown or not supported yet" +
-                         suggestion(name, known));
+  throw Error(where,
+              kind + " \"" + name + "\" is unknown or not supported yet" + suggestion(name, known));
 }
 
 std::vector<std::string> Registry::names(const std::string& kind) const {

@@ -101,8 +101,8 @@ struct Accel::Impl {
   RTCScene top = nullptr;
   std::vector<RTCScene> object_scenes;
   std::vector<std::unique_ptr<UserGeometry>> users;
-  std::vector<const Primitive*> primitives;                   // by geometry ID of the top scene
-  std::vector<std::vector<const Primitive*>> objects;         // by geometry ID of an object's scene
+  std::vector<const Primitive*> primitives;            // by geometry ID of the top scene
+  std::vector<std::vector<const Primitive*>> objects;  // by geometry ID of an object's scene
   std::vector<Instance> instances;
   uint32_t first_instance_id = 0;
   std::atomic<int64_t> bytes{0};
@@ -117,10 +117,10 @@ struct Accel::Impl {
 void Accel::Impl::attach_mesh(RTCGeometry geometry, const TriangleMesh& mesh) {
   // The shapes keep their arrays; Embree reads 4 bytes past the last vertex, which std::vector's
   // storage does not promise, so positions are copied into Embree's own padded buffer.
-  void* const positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                  RTC_FORMAT_FLOAT3, sizeof(vec3),
-                                                  mesh.positions.size());
-  if (positions) std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(vec3));
+  void* const positions = rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.positions.size());
+  if (positions)
+    std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(vec3));
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              mesh.triangles.data(), 0, sizeof(glm::uvec3), mesh.triangles.size());
 }

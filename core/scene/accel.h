@@ -13,10 +13,10 @@ namespace pssmlt {
 
 // Where a ray meets something, before its surface is computed.
 struct RawHit {
-  float t = 0.f;           // along the ray [m]
-  vec2 where{0.f};         // barycentric or the shape's own coordinates
+  float t = 0.f;    // along the ray [m]
+  vec2 where{0.f};  // barycentric or the shape's own coordinates
   uint32_t element = 0;
-  int instance = -1;       // into the instances, -1: none
+  int instance = -1;  // into the instances, -1: none
   const Primitive* primitive = nullptr;
 };
 
@@ -44,14 +44,14 @@ class Accel {
   // Completes the hit in render space (footprint left to the scene).
   void fill(const RawHit& raw, Hit& hit) const;
 
-  SceneBounds bounds() const;   // of everything, radius 0 if empty
+  SceneBounds bounds() const;  // of everything, radius 0 if empty
   // Largest coordinate of geometry.
   static constexpr float max_reach = 1e18f;
   // Largest coordinate where rays may start: max_reach, less with tiny instances.
   float reach() const { return reach_; }
   // What one instance leaves of it: its own space must hold the ray too, and directions.
   static double reach_of(const Transform& to_render);
-  uint64_t bytes() const;       // Embree's own memory
+  uint64_t bytes() const;  // Embree's own memory
 
  private:
   float reach_ = 0.f;

@@ -33,7 +33,9 @@ void refuse_animation(const TransformPair& transform, const Location& where) {
 class SceneBuilder {
  public:
   SceneBuilder(const SceneDescription& description, const BuildOptions& options)
-      : description_(description), options_(options), to_render_(find_to_render()),
+      : description_(description),
+        options_(options),
+        to_render_(find_to_render()),
         resolver_(description, to_render_, options.defaults.material),
         scene_(std::make_unique<Scene>()) {}
 
@@ -51,7 +53,8 @@ class SceneBuilder {
   void check_reach();
   std::vector<const Primitive*> build_object(const ObjectDescription& object);
   std::unique_ptr<Primitive> build_primitive(const ShapeDescription& shape, const Transform& space);
-  void attach_area_light(const ShapeDescription& shape, const Transform& space, Primitive& primitive);
+  void attach_area_light(const ShapeDescription& shape, const Transform& space,
+                         Primitive& primitive);
   void add_light(std::shared_ptr<Light> light);
   void count(const Primitive& primitive);
   void finish_lights();
@@ -207,7 +210,8 @@ void SceneBuilder::refuse_beyond_reach(const Shape& shape, const Location& where
   const vec3 farthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
   if (bounds.min.x <= bounds.max.x && !(max_component(farthest) <= Accel::max_reach)) {
     throw Error(where, fmt::format("this shape reaches further than {:g} from the camera: that is "
-                                   "too far", Accel::max_reach));
+                                   "too far",
+                                   Accel::max_reach));
   }
 }
 
@@ -284,7 +288,8 @@ void SceneBuilder::check_reach() {
                         static_cast<double>(bounds.radius);
   for (const InstanceDescription& instance : description_.instances) {
     if (extent > Accel::reach_of(to_render_ * instance.transform.start)) {
-      throw Error(instance.where, "this instance is too small, or too far away, for the scene's size");
+      throw Error(instance.where,
+                  "this instance is too small, or too far away, for the scene's size");
     }
   }
 }

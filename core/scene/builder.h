@@ -31,7 +31,7 @@ struct BuildOptions {
   std::optional<ivec2> size;     // of the full picture [pixels]
   float scale = 1.f;             // of the picture's size
   std::optional<std::array<int, 4>> crop;  // x0, x1, y0, y1 [pixels], upper bounds exclusive
-  bool honour_clamp = false;     // apply the film's maxcomponentvalue per sample
+  bool honour_clamp = false;               // apply the film's maxcomponentvalue per sample
 };
 
 // One term of the picture: sampler x integrator x path class; the picture is the sum of the layers.

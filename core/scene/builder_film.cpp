@@ -95,9 +95,10 @@ void read_sensor(Parameters& film, float shutter_seconds, FilmDirective& setting
 }  // namespace
 
 FilmDirective read_film(const SceneDescription& scene, const BuildOptions& options,
-                       std::vector<std::string>& log) {
+                        std::vector<std::string>& log) {
   if (scene.film.given() && scene.film.type != "rgb") {
-    throw Error(scene.film.where, "film \"" + scene.film.type + "\" is unknown or not supported yet");
+    throw Error(scene.film.where,
+                "film \"" + scene.film.type + "\" is unknown or not supported yet");
   }
   Parameters film(scene.film.parameters, scene.film.where, "film \"rgb\"", nullptr);
   FilmDirective settings;

@@ -15,6 +15,6 @@ struct FilmDirective {
 // Reads Film with the command line's size, scale and crop. Throws Error (located) on sizes and
 // windows that make no picture. Notes go to log.
 FilmDirective read_film(const SceneDescription& scene, const BuildOptions& options,
-                       std::vector<std::string>& log);
+                        std::vector<std::string>& log);
 
 }  // namespace pssmlt

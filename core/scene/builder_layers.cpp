@@ -115,7 +115,8 @@ void split_alias(const FoundPlugin& found, Directive& integrator, Directive& sam
 
 void log_alias(const std::string& kind, const FoundPlugin& found, std::vector<std::string>& log) {
   if (found.alias.empty()) return;
-  std::string line = owner_name(kind, found.alias) + " stands for \"" + found.descriptor->name + "\"";
+  std::string line =
+      owner_name(kind, found.alias) + " stands for \"" + found.descriptor->name + "\"";
   if (!found.sampler.empty()) line += " under sampler \"" + found.sampler + "\"";
   log.push_back(line);
 }
@@ -123,8 +124,8 @@ void log_alias(const std::string& kind, const FoundPlugin& found, std::vector<st
 Layer build_layer(const LayerDescription& description, const BuildOptions& options,
                   SceneResolver& resolver, std::string& settings, std::vector<std::string>& log) {
   Registry& registry = Registry::instance();
-  Directive integrator = choose(description.integrator, options.integrator,
-                                options.defaults.integrator);
+  Directive integrator =
+      choose(description.integrator, options.integrator, options.defaults.integrator);
   Directive sampler = choose(description.sampler, options.sampler, options.defaults.sampler);
   const FoundPlugin found_integrator =
       registry.find("integrator", integrator.type, integrator.where);

@@ -23,8 +23,7 @@ class BuildResolver final : public SceneResolver {
   std::shared_ptr<const Texture<Rgb>> rgb_texture(const std::string& name,
                                                   const Location& where) override;
   std::string resolve_path(const std::string& name) const override;
-  std::shared_ptr<const Material> material(const std::string& name,
-                                           const Location& where) override;
+  std::shared_ptr<const Material> material(const std::string& name, const Location& where) override;
   // By index into the description's materials.
   std::shared_ptr<const Material> material(uint32_t index);
   // Declared things that nothing used so far.

@@ -25,7 +25,18 @@ class SceneResolver;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
 enum class ParameterType : uint8_t {
-  Integer, Float, Point2, Vector2, Point3, Vector3, Normal, Bool, String, Texture, Spectrum, Rgb,
+  Integer,
+  Float,
+  Point2,
+  Vector2,
+  Point3,
+  Vector3,
+  Normal,
+  Bool,
+  String,
+  Texture,
+  Spectrum,
+  Rgb,
   Blackbody
 };
 #pragma GCC diagnostic pop
@@ -37,7 +48,7 @@ std::string_view to_string(ParameterType type);
 struct Parameter {
   ParameterType type;
   std::string name;
-  Location where;                 // of the declaration
+  Location where;  // of the declaration
   std::vector<int> ints;
   std::vector<float> floats;
   std::vector<std::string> strings;

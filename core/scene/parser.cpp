@@ -200,8 +200,8 @@ void Parser::directives(Tokenizer& tokens) {
     } else {
       std::string name = string_after(rule.name);
       // Names that a scene makes up are checked where they are kept.
-      const bool made_up = rule.name.starts_with("Make") || rule.name == "LayerBegin" ||
-                           rule.name == "Attribute";
+      const bool made_up =
+          rule.name.starts_with("Make") || rule.name == "LayerBegin" || rule.name == "Attribute";
       if (name.empty() && !made_up) fail(where, std::string(rule.name) + " needs a type, not \"\"");
       (state_.*rule.plugin)(std::move(name), parameters(), where);
     }

@@ -18,8 +18,8 @@ std::string text(const vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v
 void log_ray(const char* what, const Ray& ray, const std::string& outcome) {
   if (recorded_rays) recorded_rays->push_back({ray, what[0] == 's'});
   if (!path_listener) return;
-  path_listener(fmt::format("{} from {} along {}: {}", what, text(ray.origin), text(ray.direction),
-                            outcome));
+  path_listener(
+      fmt::format("{} from {} along {}: {}", what, text(ray.origin), text(ray.direction), outcome));
 }
 
 }  // namespace
@@ -61,8 +61,9 @@ bool Scene::intersect(const Ray& ray, float u_alpha, Hit& hit) const {
     if (found) complete(raw, hit);
   }
   if (path_logged) {
-    log_ray("ray", ray, found ? "meets " + hit.primitive->name + " at " + text(hit.position)
-                              : "leaves the scene");
+    log_ray(
+        "ray", ray,
+        found ? "meets " + hit.primitive->name + " at " + text(hit.position) : "leaves the scene");
   }
   return found;
 }

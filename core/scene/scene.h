@@ -22,11 +22,11 @@ struct RawHit;
 // A shape with what is attached to it.
 struct Primitive {
   std::shared_ptr<const Shape> shape;
-  std::shared_ptr<const Material> material;      // never null
-  std::shared_ptr<const Texture<float>> alpha;   // null: opaque
-  const Light* light = nullptr;                  // emission of this surface, or null
-  int light_index = -1;                          // in Scene::lights()
-  std::string name;                              // for messages: `sphere "file:line"`
+  std::shared_ptr<const Material> material;     // never null
+  std::shared_ptr<const Texture<float>> alpha;  // null: opaque
+  const Light* light = nullptr;                 // emission of this surface, or null
+  int light_index = -1;                         // in Scene::lights()
+  std::string name;                             // for messages: `sphere "file:line"`
 };
 
 class Scene {

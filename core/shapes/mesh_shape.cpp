@@ -149,8 +149,8 @@ void MeshShape::make_areas() const {
   std::vector<double> a;
   a.reserve(mesh_.triangles.size());
   for (const glm::uvec3& t : mesh_.triangles) {
-    a.push_back(glm::length(
-        area_vector(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z])));
+    a.push_back(
+        glm::length(area_vector(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z])));
   }
   areas_ = Distribution1D(std::span<const double>(a));
   areas_made_.store(true, std::memory_order_release);

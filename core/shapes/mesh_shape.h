@@ -62,7 +62,7 @@ class MeshShape : public Shape {
   std::vector<vec3> face_normals_;
   FacingPlane plane_;
   float area_ = 0.f, inverse_area_ = 0.f;  // [m^2], [1/m^2]; both 0 without triangles
-  bool flip_ = false;  // the index order gives the inside
+  bool flip_ = false;                      // the index order gives the inside
   mutable std::atomic<bool> areas_made_{false};
   mutable std::once_flag areas_once_;
   mutable Distribution1D areas_;

@@ -13,12 +13,12 @@ using Files = std::map<std::string, std::string>;
 
 struct BadInput {
   std::string name;
-  std::string scene;                      // text of scene.txt; "-": there is no such file
-  std::vector<std::string> words;         // all in what the program prints
-  std::string place = {};                 // "line:column" of the message in scene.txt; "": none
+  std::string scene;               // text of scene.txt; "-": there is no such file
+  std::vector<std::string> words;  // all in what the program prints
+  std::string place = {};          // "line:column" of the message in scene.txt; "": none
   Files files = {};
   std::vector<std::string> arguments = {};  // after the scene
-  bool renders = false;                   // exit code 0 and a finite picture, with a warning
+  bool renders = false;                     // exit code 0 and a finite picture, with a warning
 };
 
 // What googletest calls a case.

@@ -26,8 +26,8 @@ class Bad : public ::testing::TestWithParam<BadInput> {
   ProgramResult run(const BadInput& bad) const {
     for (const auto& [name, bytes] : bad.files) folder_.write(name, bytes);
     if (bad.scene != "-") folder_.write("scene.txt", bad.scene);
-    std::vector<std::string> arguments = {"scene.txt", "-o", "out.pfm", "--threads", "1",
-                                          "--spp",     "1"};
+    std::vector<std::string> arguments = {"scene.txt", "-o",    "out.pfm", "--threads",
+                                          "1",         "--spp", "1"};
     if (!bad.arguments.empty()) arguments = bad.arguments;
     return run_program(arguments, folder_);
   }
@@ -97,9 +97,10 @@ TEST_P(CutImage, IsRefused) {
   const ProgramResult good = run_program({"good.txt", "-o", image, "--spp", "1"}, folder);
   ASSERT_EQ(good.exit_code, 0) << good.text;
   fs::resize_file(folder.path() / image, fs::file_size(folder.path() / image) / 2);
-  folder.write("scene.txt", world("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" +
-                                  image + "\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\" "
-                                          "Shape \"sphere\""));
+  folder.write("scene.txt",
+               world("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" + image +
+                     "\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\" "
+                     "Shape \"sphere\""));
   const ProgramResult bad = run_program({"scene.txt", "-o", "out.pfm", "--spp", "1"}, folder);
   EXPECT_EQ(bad.exit_code, 2) << bad.text;
   EXPECT_NE(bad.text.find("scene.txt:4:"), std::string::npos) << bad.text;

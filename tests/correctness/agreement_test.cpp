@@ -2,8 +2,8 @@
 // it sees: the pictures of six scenes are compared by blocks of 16 x 16 pixels with those of the
 // integrator that sees most, under the default sampler.
 //
-// False alarms: below 10^-6 for each test. Power: 0.99 against an error of 2 % that all blocks have,
-// and of 20 % in one block alone, computed from the errors measured and asserted.
+// False alarms: below 10^-6 for each test. Power: 0.99 against an error of 2 % that all blocks
+// have, and of 20 % in one block alone, computed from the errors measured and asserted.
 #include <gtest/gtest.h>
 
 #include "core/path/path_expression.h"

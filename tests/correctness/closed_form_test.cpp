@@ -1,10 +1,10 @@
 // Every integrator under every sampler renders the pictures that are known in closed form, wherever
 // its mask says that it sees all the light there is.
 //
-// False alarms: below 10^-6 for each test. Power: 0.99 against an error of 2 % of the whole and 10 %
-// of a quadrant, computed from the errors measured and asserted. The half per cent that conserving
-// materials are held to is asserted wherever that leaves the false alarms where they are, which
-// `precise` sees to for the default sampler.
+// False alarms: below 10^-6 for each test. Power: 0.99 against an error of 2 % of the whole and 10
+// % of a quadrant, computed from the errors measured and asserted. The half per cent that
+// conserving materials are held to is asserted wherever that leaves the false alarms where they
+// are, which `precise` sees to for the default sampler.
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -14,7 +14,7 @@ namespace pssmlt::test {
 
 struct ClosedForm {
   std::string name, scene;
-  std::string classes;         // of the light that `values` counts
+  std::string classes;  // of the light that `values` counts
   int max_depth = 0;
   std::vector<double> values;  // luminance of the four quadrants [W/(m^2 sr)], or of the whole
   bool half_percent = false;   // the mean is held to 0.5 %
@@ -33,7 +33,8 @@ Sampler "pssmlt" "integer bootstrapsamples" 4096 "integer chains" 32
   "float largestepprobability" .8
 Integrator "path" "integer maxdepth" {}
 WorldBegin
-)", height * std::sin(a), height * std::cos(a), window, depth);
+)",
+                     height * std::sin(a), height * std::cos(a), window, depth);
 }
 
 // The mean of f(x, y) over each quadrant of the window, in the order of the picture's blocks. The
@@ -56,8 +57,8 @@ inline std::vector<double> quadrants(double x0, double x1, double y0, double y1,
 }
 
 // Directional albedo of a single scattering event on GGX facets that reflect everything, by the
-// midpoint rule over the hemisphere: integral of D G2 / (4 cos_o) d omega, Smith's height-correlated
-// G2 (Heitz 2014, eq. 72, 99).
+// midpoint rule over the hemisphere: integral of D G2 / (4 cos_o) d omega, Smith's
+// height-correlated G2 (Heitz 2014, eq. 72, 99).
 inline double ggx_albedo(double alpha, double cos_o) {
   constexpr int n = 1500;
   const auto lambda = [alpha](double c) {
@@ -88,46 +89,67 @@ inline double fresnel(double cos_i, double eta) {
 }
 
 inline ClosedForm furnace() {
-  return {"furnace", view("-.7 .7 -.7 .7", 1) + R"(
+  return {"furnace",
+          view("-.7 .7 -.7 .7", 1) + R"(
 LightSource "infinite" "rgb L" [ 1 1 1 ]
 Material "diffuse" "rgb reflectance" [ 1 1 1 ]
-Shape "disk" "float radius" 1)", "IDE", 1, {1.0}, true};
+Shape "disk" "float radius" 1)",
+          "IDE",
+          1,
+          {1.0},
+          true};
 }
 
 // A disk in the furnace, looked at under an angle.
 inline ClosedForm ggx(const std::string& name, double alpha, double angle) {
   const double cos_o = std::cos(angle * std::numbers::pi / 180.0);
   const std::string window = fmt::format("{0} {1} -.7 .7", -.7 * cos_o, .7 * cos_o);
-  return {name, view(window, 1, angle) + R"(
+  return {name,
+          view(window, 1, angle) + R"(
 LightSource "infinite" "rgb L" [ 1 1 1 ]
 Material "conductor" "rgb reflectance" [ 1 1 1 ] "bool remaproughness" false
-  "float roughness" )" + fmt::format("{}", alpha) + R"(
-Shape "disk" "float radius" 1)", "IDE", 1, {ggx_albedo(alpha, cos_o)}, true};
+  "float roughness" )" +
+              fmt::format("{}", alpha) + R"(
+Shape "disk" "float radius" 1)",
+          "IDE",
+          1,
+          {ggx_albedo(alpha, cos_o)},
+          true};
 }
 
 // Radiance grows with the squared index: a ray that leaves glass into air carries 1 / eta^2 of it.
 inline ClosedForm boundary() {
   const double r = fresnel(1.0, 1.5);
-  return {"boundary", view("-.5 .5 -.5 .5", 1) + R"(
+  return {"boundary",
+          view("-.5 .5 -.5 .5", 1) + R"(
 LightSource "infinite" "rgb L" [ 1 1 1 ]
 Material "dielectric" "float eta" 1.5
-Shape "disk" "float radius" 1)", "IS*E", 1, {r + (1.0 - r) / (1.5 * 1.5)}, true};
+Shape "disk" "float radius" 1)",
+          "IS*E",
+          1,
+          {r + (1.0 - r) / (1.5 * 1.5)},
+          true};
 }
 
 // A plane-parallel plate in the furnace: reflected, transmitted, and after inner reflections.
 inline ClosedForm slab() {
   const double r = fresnel(std::cos(std::numbers::pi / 4), 1.5);
-  return {"slab", view("-1 1 -1 1", 4, 45.0) + R"(
+  return {"slab",
+          view("-1 1 -1 1", 4, 45.0) + R"(
 LightSource "infinite" "rgb L" [ 1 1 1 ]
 Material "dielectric" "float eta" 1.5
 Shape "disk" "float radius" 20 "float height" .5
 ReverseOrientation
-Shape "disk" "float radius" 20 "float height" 0)", "IS*E", 4,
-          {r + (1.0 - r) * (1.0 - r) * (1.0 + r + r * r)}, true};
+Shape "disk" "float radius" 20 "float height" 0)",
+          "IS*E",
+          4,
+          {r + (1.0 - r) * (1.0 - r) * (1.0 + r + r * r)},
+          true};
 }
 
 inline ClosedForm integrating_sphere(double rho, int depth) {
-  return {fmt::format("sphere_{}_{}", static_cast<int>(10 * rho), depth), fmt::format(R"(
+  return {fmt::format("sphere_{}_{}", static_cast<int>(10 * rho), depth),
+          fmt::format(R"(
 Film "rgb" "integer xresolution" 8 "integer yresolution" 8
 PixelFilter "box"
 LookAt .3 -.2 .1  -.4 .1 1  0 1 0
@@ -139,8 +161,12 @@ WorldBegin
 ReverseOrientation
 Material "diffuse" "rgb reflectance" [ {} {} {} ]
 AreaLightSource "diffuse" "rgb L" [ 2 2 2 ]
-Shape "sphere" "float radius" 1)", depth, rho, rho, rho), "AD*E", depth,
-          {2.0 * (1.0 - std::pow(rho, depth + 1)) / (1.0 - rho)}, false};
+Shape "sphere" "float radius" 1)",
+                      depth, rho, rho, rho),
+          "AD*E",
+          depth,
+          {2.0 * (1.0 - std::pow(rho, depth + 1)) / (1.0 - rho)},
+          false};
 }
 
 // A light that sends `irradiance(x, y)` [W/m^2] onto the plane, which reflects 0.6 of it.
@@ -149,9 +175,14 @@ inline ClosedForm lit_plane(const std::string& name, const std::string& light,
   const auto radiance = [&](double x, double y) {
     return 0.6 / std::numbers::pi * irradiance(x, y);
   };
-  return {name, view("-.4 1.2 -.9 .3", 1) + light + R"(
+  return {name,
+          view("-.4 1.2 -.9 .3", 1) + light + R"(
 Material "diffuse" "rgb reflectance" [ .6 .6 .6 ]
-Shape "disk" "float radius" 2)", "PDE", 1, quadrants(-.4, 1.2, -.9, .3, radiance), false};
+Shape "disk" "float radius" 2)",
+          "PDE",
+          1,
+          quadrants(-.4, 1.2, -.9, .3, radiance),
+          false};
 }
 
 // Intensity 3 from the point (.2, .1, 1.5), straight above it: I cos / d^2.
@@ -162,25 +193,39 @@ inline double below_the_point(double x, double y) {
 
 inline std::vector<ClosedForm> closed_forms() {
   constexpr double disks = std::numbers::pi * (3.0 - 2.0 * std::numbers::sqrt2);
-  return {
-      furnace(), ggx("ggx", .5, 0.0), ggx("ggx_oblique", .4, 60.0), boundary(), slab(),
-      integrating_sphere(.5, 0), integrating_sphere(.5, 1), integrating_sphere(.5, 2),
-      integrating_sphere(.5, 5), integrating_sphere(.9, 1), integrating_sphere(.9, 3),
-      lit_plane("point", R"(LightSource "point" "rgb I" [ 3 3 3 ] "point3 from" [ .2 .1 1.5 ])",
-                below_the_point),
-      lit_plane("spot", R"(LightSource "spot" "rgb I" [ 3 3 3 ] "point3 from" [ .2 .1 1.5 ]
+  return {furnace(),
+          ggx("ggx", .5, 0.0),
+          ggx("ggx_oblique", .4, 60.0),
+          boundary(),
+          slab(),
+          integrating_sphere(.5, 0),
+          integrating_sphere(.5, 1),
+          integrating_sphere(.5, 2),
+          integrating_sphere(.5, 5),
+          integrating_sphere(.9, 1),
+          integrating_sphere(.9, 3),
+          lit_plane("point", R"(LightSource "point" "rgb I" [ 3 3 3 ] "point3 from" [ .2 .1 1.5 ])",
+                    below_the_point),
+          lit_plane("spot", R"(LightSource "spot" "rgb I" [ 3 3 3 ] "point3 from" [ .2 .1 1.5 ]
                            "point3 to" [ .2 .1 0 ] "float coneangle" 80
-                           "float conedeltaangle" 5)", below_the_point),
-      lit_plane("distant", R"(LightSource "distant" "rgb L" [ 2 2 2 ] "point3 from" [ 3 0 4 ]
-                              "point3 to" [ 0 0 0 ])", [](double, double) { return 2.0 * .8; }),
-      // Mean irradiance of a unit disk below another of radiance 1 at distance 2; the disk fills
-      // pi / 4 of the picture.
-      {"disks", view("-1 1 -1 1", 1, 0.0, 1.5) + R"(
+                           "float conedeltaangle" 5)",
+                    below_the_point),
+          lit_plane("distant", R"(LightSource "distant" "rgb L" [ 2 2 2 ] "point3 from" [ 3 0 4 ]
+                              "point3 to" [ 0 0 0 ])",
+                    [](double, double) { return 2.0 * .8; }),
+          // Mean irradiance of a unit disk below another of radiance 1 at distance 2; the disk
+          // fills pi / 4 of the picture.
+          {"disks",
+           view("-1 1 -1 1", 1, 0.0, 1.5) + R"(
 Material "diffuse" "rgb reflectance" [ .5 .5 .5 ]
 Shape "disk" "float radius" 1
 AreaLightSource "diffuse" "rgb L" [ 1 1 1 ]
 ReverseOrientation
-Shape "disk" "float radius" 1 "float height" 2)", "ADE", 1, {.5 / 4.0 * disks}, true}};
+Shape "disk" "float radius" 1 "float height" 2)",
+           "ADE",
+           1,
+           {.5 / 4.0 * disks},
+           true}};
 }
 
 }  // namespace pssmlt::test

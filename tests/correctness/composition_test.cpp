@@ -17,9 +17,11 @@ Film "rgb" "integer xresolution" 16 "integer yresolution" 12
 PixelFilter "box"
 LookAt 0 1 -3.2  0 1 0  0 1 0
 Camera "perspective" "float fov" 50
-)" + options + R"(
+)" + options +
+         R"(
 WorldBegin
-)" + room + R"(
+)" + room +
+         R"(
 LightSource "infinite" "rgb L" [ .5 .5 .5 ]
 LightSource "point" "rgb I" [ 1 1 1 ] "point3 from" [ .4 1.5 -.4 ]
 AttributeBegin
@@ -53,8 +55,11 @@ TEST_P(Masks, HoldByExperiment) {
   const std::string scene = everything("Integrator \"path\" \"integer maxdepth\" 3");
   const PathExpression mask(sees(integrator));
   for (const std::string& path : all_classes(3)) {
-    const Job job{.scene = scene, .integrator = integrator, .sampler = "independent",
-                  .set = {"integrator.paths=" + path}, .spp = 256};
+    const Job job{.scene = scene,
+                  .integrator = integrator,
+                  .sampler = "independent",
+                  .set = {"integrator.paths=" + path},
+                  .spp = 256};
     // Most classes are found at once.
     double mean = 0.0;
     for (const double spp : {4.0, 256.0}) {
@@ -96,7 +101,9 @@ TEST(Crop, ShowsWhatTheFullPictureShowsThere) {
   const double limit = student_limit(5e-8, renders - 1);
   for (const std::string& sampler : samplers()) {
     Job job{.scene = everything(chains + "Integrator \"bdpt\" \"integer maxdepth\" 2"),
-            .integrator = sees_most(), .sampler = sampler, .spp = 128};
+            .integrator = sees_most(),
+            .sampler = sampler,
+            .spp = 128};
     std::vector<Image> full;
     for (uint64_t seed = 1; seed <= renders; ++seed) full.push_back(render_text(job, seed).image);
     for (const Window& w : windows) {
@@ -123,7 +130,8 @@ TEST(Crop, ShowsWhatTheFullPictureShowsThere) {
 TEST(Layers, DirectLightAndChainsSumToTheWhole) {
   const std::string layers = R"(
 LayerBegin "direct" Sampler "sobol" Integrator "path" "integer maxdepth" 1 LayerEnd
-LayerBegin "rest" )" + chains + R"( Integrator "path" "integer mindepth" 2 "integer maxdepth" 3
+LayerBegin "rest" )" + chains +
+                             R"( Integrator "path" "integer mindepth" 2 "integer maxdepth" 3
 LayerEnd
 )";
   const std::string whole = "Integrator \"path\" \"integer maxdepth\" 3";

@@ -164,8 +164,7 @@ TEST_P(AnyCamera, ConnectionsReturnToTheRaster) {
   RandomStream random(8, RandomUse::test);
   for (int i = 0; i < 2000; ++i) {
     const vec2 lens = draw2(random);
-    const dvec2 raster =
-        dvec2(frame.crop_min) + dvec2(draw2(random)) * dvec2(frame.crop_size());
+    const dvec2 raster = dvec2(frame.crop_min) + dvec2(draw2(random)) * dvec2(frame.crop_size());
     const auto e = camera->emit(lens, raster);
     ASSERT_TRUE(e);
     EXPECT_NEAR(e->weight().x, 1.f, 1e-3f);
@@ -185,8 +184,10 @@ class AnyFilter : public testing::TestWithParam<std::string> {};
 // Camera rays draw their offset from |f|, light splats are spread by f: a constant picture stays
 // constant under both, whatever the filter's sign, to the edge of the crop.
 TEST_P(AnyFilter, KeepsAConstantPicture) {
-  const std::string scene = "Film \"rgb\" \"integer xresolution\" 12 \"integer yresolution\" 8 "
-      "\"integer pixelbounds\" [ 3 8 2 8 ]\nPixelFilter \"" + GetParam() + R"("
+  const std::string scene =
+      "Film \"rgb\" \"integer xresolution\" 12 \"integer yresolution\" 8 "
+      "\"integer pixelbounds\" [ 3 8 2 8 ]\nPixelFilter \"" +
+      GetParam() + R"("
 LookAt 0 0 5  0 0 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -1.5 1.5 -1 1 ]
 Integrator "path" "integer maxdepth" 0

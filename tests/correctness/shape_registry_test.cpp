@@ -44,8 +44,8 @@ class AnyShape : public testing::TestWithParam<std::string> {
   static double density(const Shape& shape, const vec3& from, const vec3& direction) {
     double sum = 0.0;
     for (const Hit& hit : all_hits(shape, {from, direction, infinity})) {
-      const SurfaceSample at{.position = hit.position, .normal = hit.ng, .uv = hit.uv,
-                             .element = hit.element};
+      const SurfaceSample at{
+          .position = hit.position, .normal = hit.ng, .uv = hit.uv, .element = hit.element};
       sum += static_cast<double>(shape.pdf_toward(from, at));
     }
     return sum;

@@ -63,8 +63,8 @@ void expect_same(const Estimate& a, const Estimate& b, const std::string& what) 
 struct StrategyCase {
   const char* name;
   const char* lights;
-  int least_s;         // 0: the light can be hit
-  int direct_s;        // largest s for paths without scattering
+  int least_s;   // 0: the light can be hit
+  int direct_s;  // largest s for paths without scattering
 };
 
 // Each strategy's unweighted estimate is an estimate of the whole by itself.
@@ -77,8 +77,7 @@ TEST(Bdpt, EveryStrategyAlone) {
       const std::string depth = std::to_string(bounces);
       const std::vector<std::string> range = {"integrator.mindepth=" + depth,
                                               "integrator.maxdepth=" + depth};
-      const Estimate path =
-          mean_of({room_with(c.lights), "path", "independent", range, 32}, 12);
+      const Estimate path = mean_of({room_with(c.lights), "path", "independent", range, 32}, 12);
       const int last = bounces == 0 ? 0 : bounces + 1;
       for (int s = c.least_s; s <= last; ++s) {
         std::vector<std::string> set = range;
@@ -86,8 +85,8 @@ TEST(Bdpt, EveryStrategyAlone) {
         set.push_back("integrator.s=" + std::to_string(s));
         const Estimate one =
             mean_of({room_with(c.lights), "bdpt", "independent", set, 32}, 12, 100);
-        expect_same(one, path, std::string(c.name) + " bounces " + depth + " s " +
-                                   std::to_string(s));
+        expect_same(one, path,
+                    std::string(c.name) + " bounces " + depth + " s " + std::to_string(s));
       }
     }
   }
@@ -95,11 +94,13 @@ TEST(Bdpt, EveryStrategyAlone) {
 
 TEST(Bdpt, LampSeenByTheLensAlone) {
   const std::string scene = room_with(lamp);
-  const Estimate path = mean_of(
-      {scene, "path", "independent", {"integrator.maxdepth=0"}, 64}, 12);
-  const Estimate lens = mean_of({scene, "bdpt", "independent",
-                                 {"integrator.unweighted=true", "integrator.s=1",
-                                  "integrator.t=1"}, 64}, 12, 100);
+  const Estimate path = mean_of({scene, "path", "independent", {"integrator.maxdepth=0"}, 64}, 12);
+  const Estimate lens = mean_of({scene,
+                                 "bdpt",
+                                 "independent",
+                                 {"integrator.unweighted=true", "integrator.s=1", "integrator.t=1"},
+                                 64},
+                                12, 100);
   expect_same(lens, path, "s = t = 1");
 }
 
@@ -171,9 +172,12 @@ TEST(Integrators, LengthsAddUp) {
   const std::string scene = room_with(std::string(lamp) + ball + sky + point);
   for (const char* integrator : {"path", "light", "bdpt", "whitted"}) {
     const auto mean = [&](int least, int most) {
-      return mean_of({scene, integrator, "independent",
+      return mean_of({scene,
+                      integrator,
+                      "independent",
                       {"integrator.mindepth=" + std::to_string(least),
-                       "integrator.maxdepth=" + std::to_string(most)}, 8});
+                       "integrator.maxdepth=" + std::to_string(most)},
+                      8});
     };
     const double whole = mean(1, 4);
     EXPECT_NEAR(mean(1, 1) + mean(2, 2) + mean(3, 3) + mean(4, 4), whole, 1e-5 * whole)
@@ -184,18 +188,21 @@ TEST(Integrators, LengthsAddUp) {
 // sees() names what an integrator finds: outside of it the picture is black, inside it is not.
 TEST(Integrators, MaskAndCodeStayTogether) {
   const std::string scene = room_with(std::string(lamp) + ball + sky + point);
-  const char* const classes[] = {"AE",     "IE",    "LDE",  "LDDE",  "LDS+E",   "LS+DE",
-                                 "IS+E",   "AS+E",  "PS+E", "PS+DE", "LS+DS+E", "PS+DS+E",
-                                 "LD.*DE", "PD.*E", "PE"};
+  const char* const classes[] = {"AE",      "IE",      "LDE",    "LDDE",  "LDS+E",
+                                 "LS+DE",   "IS+E",    "AS+E",   "PS+E",  "PS+DE",
+                                 "LS+DS+E", "PS+DS+E", "LD.*DE", "PD.*E", "PE"};
   for (const char* integrator : {"path", "light", "bdpt", "whitted"}) {
     const BuiltScene built = build_text({scene, integrator, "independent"});
     const PathExpression mask(built.layers[0].integrator->sees());
     for (const char* one : classes) {
-      const bool blind = PathExpression::disjoint(mask, PathExpression(one),
-                                                  built.scene->features(), 0, 5);
-      const double mean = mean_of({scene, integrator, "independent",
-                                   {std::string("integrator.paths=") + one,
-                                    "integrator.maxdepth=5"}, 128});
+      const bool blind =
+          PathExpression::disjoint(mask, PathExpression(one), built.scene->features(), 0, 5);
+      const double mean =
+          mean_of({scene,
+                   integrator,
+                   "independent",
+                   {std::string("integrator.paths=") + one, "integrator.maxdepth=5"},
+                   128});
       EXPECT_EQ(mean > 0.0, !blind) << integrator << " " << one << " " << mean;
     }
   }
@@ -203,14 +210,21 @@ TEST(Integrators, MaskAndCodeStayTogether) {
 
 TEST(Integrators, RefuseParametersThatDoNotFit) {
   const std::pair<const char*, const char*> bad[] = {
-      {"path", "integrator.maxdepth=-1"},      {"path", "integrator.mindepth=-1"},
-      {"path", "integrator.mindepth=9"},       {"path", "integrator.maxdepth=70000"},
-      {"path", "integrator.paths=L.*X"},       {"path", "integrator.regularize=true"},
-      {"path", "integrator.lightsampler=any"}, {"bdpt", "integrator.regularize=true"},
-      {"bdpt", "integrator.heuristic=best"},   {"bdpt", "integrator.visualizestrategies=true"},
+      {"path", "integrator.maxdepth=-1"},
+      {"path", "integrator.mindepth=-1"},
+      {"path", "integrator.mindepth=9"},
+      {"path", "integrator.maxdepth=70000"},
+      {"path", "integrator.paths=L.*X"},
+      {"path", "integrator.regularize=true"},
+      {"path", "integrator.lightsampler=any"},
+      {"bdpt", "integrator.regularize=true"},
+      {"bdpt", "integrator.heuristic=best"},
+      {"bdpt", "integrator.visualizestrategies=true"},
       {"bdpt", "integrator.visualizeweights=true"},
-      {"bdpt", "integrator.s=-2"},             {"bdpt", "integrator.t=0"},
-      {"light", "integrator.paths="},          {"whitted", "integrator.nonsense=1"}};
+      {"bdpt", "integrator.s=-2"},
+      {"bdpt", "integrator.t=0"},
+      {"light", "integrator.paths="},
+      {"whitted", "integrator.nonsense=1"}};
   for (const auto& [integrator, set] : bad) {
     EXPECT_THROW(build_text({room_with(lamp), integrator, "independent", {set}}), Error) << set;
   }

@@ -55,8 +55,8 @@ inline Blocks render_to_precision(Job job, int renders, int edge, const Precisio
     return std::max(p.block / goal.block, p.whole / goal.whole);
   };
   const double rough = excess(precision(summarise(render_blocks(job, pilots, edge, 10000))));
-  job.spp = std::clamp(std::ceil(job.spp * rough * rough * pilots / renders),
-                       job.spp / 2.0, most_spp);
+  job.spp =
+      std::clamp(std::ceil(job.spp * rough * rough * pilots / renders), job.spp / 2.0, most_spp);
   BlockValues values = render_blocks(job, renders, edge);
   Blocks blocks = summarise(values);
   while (excess(precision(blocks)) > 1.0 && blocks.renders < 8 * renders) {
@@ -71,9 +71,9 @@ inline Blocks render_to_precision(Job job, int renders, int edge, const Precisio
 }
 
 struct Demand {
-  double false_alarm;   // of all comparisons of one call together
-  double block_error;   // relative, of a single block, found with power 0.99
-  double whole_error;   // relative, of the whole picture, found with power 0.99
+  double false_alarm;  // of all comparisons of one call together
+  double block_error;  // relative, of a single block, found with power 0.99
+  double whole_error;  // relative, of the whole picture, found with power 0.99
 };
 
 // Power is that of a normal variable past the limit, with the measured errors for the true ones.

@@ -28,7 +28,8 @@ inline std::string gltf(const std::string& length = "42", const std::string& ind
                    {"buffer":0,"byteOffset":8,"byteLength":36}],
     "buffers":[{"byteLength":)" +
          length +
-         R"(,"uri":"data:application/octet-stream;base64,AAABAAIAAAAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPwAAAAA="}]})";
+         R"(,"uri":"data:application/octet-stream;base64,)"
+         R"(AAABAAIAAAAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPwAAAAA="}]})";
 }
 
 }  // namespace pssmlt::test

@@ -18,7 +18,7 @@ namespace pssmlt::test {
 
 // What to render, how, and how long.
 struct Job {
-  std::string scene;       // text
+  std::string scene;            // text
   std::string integrator = {};  // "": the scene's
   std::string sampler = {};
   std::vector<std::string> set = {};  // as --set

@@ -36,7 +36,6 @@ inline double student_limit(double p, double n) {
 
 inline double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
-
 // Mean and variance of the mean over independent values.
 struct Estimate {
   double mean = 0.0, variance = 0.0;

@@ -36,8 +36,8 @@ TEST(Surface, ImportanceHasTheAdjointOfShadingNormals) {
     const float f = 0.6f * inv_pi;
     const float from_camera = f * std::abs(glm::dot(wi, ns));
     // Veach 1997, eq. 5.19: f* = f |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|), times the cosine |wi.ns|.
-    const float from_light = f * std::abs(glm::dot(wo, ns)) * std::abs(glm::dot(wi, ng)) /
-                             std::abs(glm::dot(wo, ng));
+    const float from_light =
+        f * std::abs(glm::dot(wo, ns)) * std::abs(glm::dot(wi, ng)) / std::abs(glm::dot(wo, ng));
     EXPECT_NEAR(s.f_cos(wi, Transport::radiance).y, from_camera, 1e-6f);
     EXPECT_NEAR(s.f_cos(wi, Transport::importance).y, from_light, 1e-6f);
     EXPECT_GT(std::abs(from_light - from_camera), 1e-3f) << "the test tells nothing";

@@ -66,13 +66,14 @@ class NowhereSink final : public SplatSink {
 class Loop {
  public:
   explicit Loop(const BuiltScene& built)
-      : layer_(built.layers[0]), owner_(*built.raster_map), evaluator_(*layer_.integrator, log_),
+      : layer_(built.layers[0]),
+        owner_(*built.raster_map),
+        evaluator_(*layer_.integrator, log_),
         worker_{owner_, splats_, workspace_, evaluator_} {
-    const SamplerContext context{
-        *built.scene, *layer_.integrator, *built.raster_map, 1,
-        [&](int count, const std::function<void(int, Worker&)>& body) {
-          for (int i = 0; i < count; ++i) body(i, worker_);
-        }};
+    const SamplerContext context{*built.scene, *layer_.integrator, *built.raster_map, 1,
+                                 [&](int count, const std::function<void(int, Worker&)>& body) {
+                                   for (int i = 0; i < count; ++i) body(i, worker_);
+                                 }};
     layer_.sampler->start(context);
   }
   // Allocations of a whole round.
