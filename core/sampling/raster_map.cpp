@@ -51,20 +51,22 @@ struct Candidates {
   int first = 0, count = 0;
   std::array<uint8_t, max_candidates> cell;
 };
-void find_candidates(double position, double radius, int low, int high, Candidates& found) {
-  const int first = static_cast<int>(std::max(std::ceil(position - radius - 0.5), double(low)));
-  const int last = static_cast<int>(std::min(std::floor(position + radius - 0.5), high - 1.0));
+// cells_a_pixel: cells / (2 radius).
+void find_candidates(double position, double radius, double cells_a_pixel, int low, int high,
+                     Candidates& found) {
+  const double from =
+      position - radius - 0.5;  // pixels above it have the position in their support
+  const int first = std::max(static_cast<int>(from) + (from > 0.0 ? 1 : 0), low);
   found.first = first;
   found.count = 0;
-  for (int p = first; p <= last; ++p) {
-    const double at = ((position - (p + 0.5)) / radius + 1.0) * (0.5 * cells);
-    // At the very ends of the support, where the filter is 0.
-    if (!(at >= 0.0 && at < cells)) {
-      if (found.count > 0) break;
+  // The cell falls by the same step from pixel to pixel.
+  double at = (position - (first + 0.5) + radius) * cells_a_pixel;
+  for (int p = first; p < high && at >= 0.0; ++p, at -= cells_a_pixel) {
+    if (at < cells) {
+      found.cell[static_cast<size_t>(found.count++)] = static_cast<uint8_t>(at);
+    } else {
       found.first = p + 1;
-      continue;
     }
-    found.cell[static_cast<size_t>(found.count++)] = static_cast<uint8_t>(at);
   }
 }
 
@@ -77,6 +79,7 @@ RasterMap::RasterMap(const RasterFrame& frame, std::shared_ptr<const Filter> fil
       throw Error("the filter's radius must lie in (0, 64] pixels");
     }
   }
+  cells_a_pixel_ = static_cast<double>(cells) / (2.0 * radius_);
   tabulate(*filter);
   accumulate();
   if (!(integral_ > 0.0) || !std::isfinite(integral_)) {
@@ -169,8 +172,8 @@ PixelCredit RasterMap::pick(const dvec2& raster, float u) const {
     return {(y - low.y) * width + x - low.x, 1.f};
   }
   Candidates xs, ys;
-  find_candidates(raster.x, radius_.x, low.x, high.x, xs);
-  find_candidates(raster.y, radius_.y, low.y, high.y, ys);
+  find_candidates(raster.x, radius_.x, cells_a_pixel_.x, low.x, high.x, xs);
+  find_candidates(raster.y, radius_.y, cells_a_pixel_.y, low.y, high.y, ys);
   const auto value = [&](int i, int j) {
     return values_[static_cast<size_t>(ys.cell[static_cast<size_t>(j)]) * cells +
                    xs.cell[static_cast<size_t>(i)]];

@@ -55,7 +55,7 @@ class RasterMap {
   Offset sample_offset(double x, double y) const;
 
   RasterFrame frame_;
-  dvec2 radius_{0.5};
+  dvec2 radius_{0.5}, cells_a_pixel_{0.0};
   bool pixel_box_ = false;     // constant over exactly one pixel: positions map as they are
   std::vector<float> values_;  // of the cells, row by row
   // Tabulated |f| for inversion: marginal over rows, then conditional over the cells of a row; each
