@@ -70,10 +70,6 @@ NumberBlock as_block(const Four& x) { return {x[0], x[1], x[2], x[3]}; }
 
 }  // namespace
 
-NumberBlock sobol_reversed(uint32_t reversed_index) {
-  return as_block(coordinates(reversed_index));
-}
-
 NumberBlock sobol_block(uint64_t seed, uint64_t index, uint32_t block) {
   const uint64_t key = mix_bits(seed + (index >> 32) * 0xD1342543DE82EF95ull +
                                 (block + 1ull) * 0x9E3779B97F4A7C15ull);

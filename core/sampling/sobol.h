@@ -31,10 +31,6 @@ Word reverse_bits(Word x) {
   return (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
 }
 
-// The first four Sobol' dimensions of the point with this bit-reversed index; they are bit-reversed
-// themselves (highest digit in the lowest bit).
-NumberBlock sobol_reversed(uint32_t reversed_index);
-
 // Block `block` of point `index` of the sequence that `seed` scrambles. Sequences of different
 // seeds and blocks of one sequence are independent. Beyond 2^32 points a new scramble starts.
 NumberBlock sobol_block(uint64_t seed, uint64_t index, uint32_t block);
