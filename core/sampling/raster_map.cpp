@@ -20,7 +20,7 @@ struct Inverted {
 };
 // `guide` names the interval that k / cells lies in, where the search for u >= k / cells starts.
 Inverted invert(const double* cdf, const uint8_t* guide, double u) {
-  int i = guide[static_cast<int>(u * cells)];
+  int i = guide[std::min(static_cast<int>(u * cells), cells - 1)];
   while (i < cells - 1 && cdf[i + 1] <= u) ++i;
   const double width = cdf[i + 1] - cdf[i];
   return {i, width > 0.0 ? (u - cdf[i]) / width : 0.5};
@@ -54,8 +54,8 @@ struct Candidates {
 // cells_a_pixel: cells / (2 radius).
 void find_candidates(double position, double radius, double cells_a_pixel, int low, int high,
                      Candidates& found) {
-  const double from =
-      position - radius - 0.5;  // pixels above it have the position in their support
+  // Pixels above it have the position in their support.
+  const double from = position - radius - 0.5;
   const int first = std::max(static_cast<int>(from) + (from > 0.0 ? 1 : 0), low);
   found.first = first;
   found.count = 0;

@@ -139,6 +139,7 @@ void MeshShape::find_plane() {
 }
 
 const Distribution1D& MeshShape::areas() const {
+  // The flag spares every sample the call into the threads' library.
   if (!areas_made_.load(std::memory_order_acquire)) {
     std::call_once(areas_once_, [this] { make_areas(); });
   }
