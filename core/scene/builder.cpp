@@ -306,10 +306,6 @@ void SceneBuilder::finish_lights() {
     lights.push_back(light.get());
   }
   scene_->light_table_ = LightTable(lights);
-  for (const auto& primitive : scene_->primitives_) {
-    const auto found = std::ranges::find(lights, primitive->light);
-    if (primitive->light) primitive->light_index = static_cast<int>(found - lights.begin());
-  }
   // Mean radiance if the light filled a diffuse enclosure of the scene's size.
   const double radius = static_cast<double>(bounds.radius);
   const double radiance = power / (4.0 * sqr(std::numbers::pi * radius));
