@@ -154,7 +154,7 @@ TEST_F(ErrorCommand, RefusesWithTheFilesNames) {
   std::filesystem::resize_file(path("cut.exr"), std::filesystem::file_size(path("cut.exr")) / 2);
   folder_.write("text.exr", "this is not an image");
   folder_.write("empty.exr", "");
-  for (const std::string& name : {"cut.exr", "text.exr", "empty.exr", "missing.exr", ""}) {
+  for (const char* const name : {"cut.exr", "text.exr", "empty.exr", "missing.exr", ""}) {
     const std::string said = refusal({path("a.exr"), path(name)});
     EXPECT_NE(said.find(path(name)), std::string::npos) << name << ": " << said;
   }
