@@ -102,7 +102,8 @@ TEST_F(ErrorCommand, LayersDoNotCount) {
   write_image(path("a.exr"), layered, {}, {});
   write_image(path("b.exr"), plain, {}, {});
   run({path("a.exr"), path("b.exr"), "--json", path("e.json")});
-  for (const auto& m : numbers("e.json")["metrics"]) EXPECT_EQ(m["value"].get<double>(), 0.0);
+  const nlohmann::json j = numbers("e.json");
+  for (const auto& m : j["metrics"]) EXPECT_EQ(m["value"].get<double>(), 0.0);
 }
 
 TEST_F(ErrorCommand, MapsAverageToTheMetric) {
