@@ -27,7 +27,7 @@ struct LiveSettings {
   std::vector<LiveFile> files;
   // Content-Security-Policy of all replies: what the page may load and from where.
   std::string content_policy =
-      "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+      "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; "
       "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 };
 

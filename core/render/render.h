@@ -73,8 +73,8 @@ struct RenderCallbacks {
   // Called on the thread that called render(), at most ten times a second.
   std::function<void(const Progress&)> progress;
   std::function<void(const RenderResult&)> snapshot;
-  // Both or neither, on the same thread: whether anybody would look at a preview now, and the
-  // preview. Asked so seldom that previews cost about a hundredth of the time.
+  // Both or neither, on the same thread, between rounds: whether anybody would look at a preview
+  // now, and the preview. It comes so seldom that previews cost about a hundredth of the time.
   std::function<bool()> wants_preview;
   std::function<void(Preview)> preview;
   // When it becomes true (signal handlers), the round is finished and the result returned.

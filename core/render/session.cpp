@@ -259,7 +259,7 @@ void Session::show_preview() {
   if (!callbacks_.wants_preview || elapsed() < next_preview_ || !callbacks_.wants_preview()) return;
   const Clock::time_point start = Clock::now();
   Preview preview;
-  preview.image = developer().picture();
+  preview.image = developer().picture(pool_);
   preview.seconds = elapsed();
   for (const LayerState& l : layers_) {
     preview.samples += l.samples;

@@ -51,6 +51,10 @@ function rows_of(report, prefix = '') {
   return Object.entries(report || {}).flatMap(([name, value]) => {
     const label = prefix + name.replaceAll('_', ' ');
     if (typeof value === 'number') return [[label, number(value)]];
+    if (value && value.rate !== undefined) {
+      const of = `${(100 * value.rate).toFixed(1)} % of ${count(value.mutations || 0)}`;
+      return [[label, of]];
+    }
     if (value && typeof value === 'object' && !Array.isArray(value)) return rows_of(value, label + ', ');
     return typeof value === 'string' ? [[label, value]] : [];
   });
