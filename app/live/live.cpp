@@ -46,6 +46,7 @@ HttpReply not_allowed(const std::string& allowed) {
 
 struct LiveServer::Impl {
   Impl(LiveSettings s, std::atomic<bool>& stop);
+  void publish(LiveFile file);
   HttpReply answer(const HttpRequest& request);
   HttpReply route(const HttpRequest& request, const std::string& path, const std::string& query);
   HttpReply send_image(const std::string& id, uint64_t after);
@@ -55,17 +56,14 @@ struct LiveServer::Impl {
   std::string address;
   std::atomic<bool>& stop;
   LiveState state;
-  std::vector<std::shared_ptr<const std::string>> texts;  // of settings.files
-  std::shared_ptr<const Guard> guard;                     // made when the port is known
-  std::atomic<bool> ready{false};                         // guard is there
-  std::unique_ptr<HttpServer> server;                     // last: its threads use all the rest
+  std::shared_ptr<const Guard> guard;  // made when the port is known
+  std::atomic<bool> ready{false};      // guard is there
+  std::unique_ptr<HttpServer> server;  // last: its threads use all the rest
 };
 
 LiveServer::Impl::Impl(LiveSettings s, std::atomic<bool>& stop_flag)
     : settings(std::move(s)), address(checked_address(settings)), stop(stop_flag) {
-  for (LiveFile& file : settings.files) {
-    texts.push_back(std::make_shared<const std::string>(std::move(file.text)));
-  }
+  for (LiveFile& file : settings.files) publish(std::move(file));
   void* const symbol = Registry::instance().module("live_server", http_server_symbol);
   const auto start = reinterpret_cast<StartHttpServer*>(symbol);
   start(
@@ -73,6 +71,10 @@ LiveServer::Impl::Impl(LiveSettings s, std::atomic<bool>& stop_flag)
       [this](const HttpRequest& request) { return answer(request); }, server);
   guard = std::make_shared<const Guard>(address, server->port());
   ready = true;
+}
+
+void LiveServer::Impl::publish(LiveFile file) {
+  state.set_file(file.path, {file.type, std::make_shared<const std::string>(std::move(file.text))});
 }
 
 HttpReply LiveServer::Impl::answer(const HttpRequest& request) {
@@ -95,9 +97,8 @@ HttpReply LiveServer::Impl::route(const HttpRequest& request, const std::string&
                                   const std::string& query) {
   const bool get = request.method == "GET", head = request.method == "HEAD";
   if (path == "/stop") return request.method == "POST" ? stop_run(request) : not_allowed("POST");
-  const auto file = std::ranges::find(settings.files, path, &LiveFile::path);
-  const bool known =
-      path == "/events" || path.starts_with(image_prefix) || file != settings.files.end();
+  const PublishedFile file = state.file(path);
+  const bool known = path == "/events" || path.starts_with(image_prefix) || file.text;
   if (!known) return plain_reply(404, "there is nothing here");
   if (!get && !head) return not_allowed("GET, HEAD");
   HttpReply reply;
@@ -109,8 +110,8 @@ HttpReply LiveServer::Impl::route(const HttpRequest& request, const std::string&
   if (path.starts_with(image_prefix)) {
     return send_image(path.substr(image_prefix.size()), version_after(query));
   }
-  reply.type = file->type;
-  reply.body = texts[static_cast<size_t>(file - settings.files.begin())];
+  reply.type = file.type;
+  reply.body = file.text;
   return reply;
 }
 
@@ -151,6 +152,8 @@ std::string LiveServer::url() const {
   const std::string host = v6 ? "[" + impl_->address + "]" : impl_->address;
   return "http://" + host + ":" + std::to_string(port()) + "/";
 }
+
+void LiveServer::publish_file(LiveFile file) { impl_->publish(std::move(file)); }
 
 void LiveServer::publish(const nlohmann::json& status) {
   // Names of files need not be UTF-8.

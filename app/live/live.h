@@ -13,7 +13,7 @@
 
 namespace pssmlt {
 
-// A file of the page. Only these are served.
+// A file of the page. Besides images and events only these are served.
 struct LiveFile {
   std::string path;  // "/live.js"; "/" is the page itself
   std::string type;  // "text/javascript; charset=utf-8"
@@ -44,7 +44,10 @@ class LiveServer {
   int port() const;
   std::string url() const;  // "http://127.0.0.1:40123/"
 
-  // The event "status" with these data. May be called from any thread, as the others below.
+  // A file more, or instead of the one at this path. May be called from any thread, as the others
+  // below.
+  void publish_file(LiveFile file);
+  // The event "status" with these data.
   void publish(const nlohmann::json& status);
   // /image/<id> is this from now on, and the event "image" says so. id: letters, digits, -, _,
   // dots.

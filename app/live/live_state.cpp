@@ -24,6 +24,17 @@ std::shared_ptr<const std::string> LiveImage::bytes() {
   return bytes_;
 }
 
+void LiveState::set_file(const std::string& path, PublishedFile file) {
+  const std::lock_guard lock(mutex_);
+  std::swap(files_[path], file);
+}
+
+PublishedFile LiveState::file(const std::string& path) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = files_.find(path);
+  return found != files_.end() ? found->second : PublishedFile();
+}
+
 void LiveState::set_status(std::string text) {
   {
     const std::lock_guard lock(mutex_);

@@ -28,8 +28,16 @@ class LiveImage {
   std::shared_ptr<const std::string> bytes_;
 };
 
+// A file that is served as it is.
+struct PublishedFile {
+  std::string type;
+  std::shared_ptr<const std::string> text;  // null: there is no such file
+};
+
 class LiveState {
  public:
+  void set_file(const std::string& path, PublishedFile file);
+  PublishedFile file(const std::string& path) const;
   void set_status(std::string text);
   void set_image(const std::string& id, std::function<std::string()> encode);
   std::shared_ptr<LiveImage> image(const std::string& id) const;  // null: there is none
@@ -51,6 +59,7 @@ class LiveState {
   uint64_t status_version_ = 0;
   std::string status_;
   std::map<std::string, std::shared_ptr<LiveImage>> images_;
+  std::map<std::string, PublishedFile> files_;
   int streams_ = 0;
   bool closed_ = false;
 };

@@ -22,6 +22,7 @@ const view = {
 
 function duration(s) {
   if (s === null || s === undefined) return 'unknown';
+  if (s > 3.6e6) return 'more than 1000 h';
   if (s < 60) return s.toFixed(1) + ' s';
   const whole = Math.round(s), two = (n) => String(n).padStart(2, '0');
   if (whole < 3600) return Math.floor(whole / 60) + ' m ' + two(whole % 60) + ' s';

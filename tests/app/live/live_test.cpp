@@ -23,7 +23,7 @@ class Live : public testing::Test {
  protected:
   int port() const { return server_.port(); }
   std::string get(const std::string& target) const {
-    return exchange(port(), request(port(), "GET " + target));
+    return ask(port(), request(port(), "GET " + target));
   }
   std::atomic<bool> stop_{false};
   LiveServer server_{settings(), stop_};
@@ -43,9 +43,19 @@ TEST_F(Live, ServesItsFiles) {
   }
 }
 
+TEST_F(Live, FilesComeLater) {
+  EXPECT_EQ(status_of(get("/images/a.js")), 404);
+  server_.publish_file({"/images/a.js", "text/javascript", "one"});
+  const std::string reply = get("/images/a.js");
+  EXPECT_EQ(body_of(reply), "one");
+  EXPECT_NE(reply.find("Content-Type: text/javascript"), std::string::npos);
+  server_.publish_file({"/images/a.js", "text/javascript", "two"});
+  EXPECT_EQ(body_of(get("/images/a.js")), "two");
+}
+
 TEST_F(Live, HeadHasNoBody) {
   for (const char* target : {"/", "/events"}) {
-    const std::string reply = exchange(port(), request(port(), std::string("HEAD ") + target));
+    const std::string reply = ask(port(), request(port(), std::string("HEAD ") + target));
     EXPECT_EQ(status_of(reply), 200) << target;
     EXPECT_EQ(body_of(reply), "") << target;
   }
@@ -69,7 +79,7 @@ TEST_F(Live, NothingOutsideTheTable) {
 TEST_F(Live, OnlyItsOwnHost) {
   const std::string p = std::to_string(port());
   const auto status = [&](const std::string& headers) {
-    return status_of(exchange(port(), "GET / HTTP/1.1\r\n" + headers + "\r\n"));
+    return status_of(ask(port(), "GET / HTTP/1.1\r\n" + headers + "\r\n"));
   };
   for (const std::string& host :
        {"127.0.0.1:" + p, "localhost:" + p, "LOCALHOST:" + p, "[::1]:" + p}) {
@@ -84,7 +94,7 @@ TEST_F(Live, OnlyItsOwnHost) {
   }
   EXPECT_EQ(status(""), 400);
   EXPECT_EQ(status(host_line(port()) + host_line(port())), 400);
-  EXPECT_EQ(status_of(exchange(port(), "GET / HTTP/1.0\r\n\r\n")), 400);
+  EXPECT_EQ(status_of(ask(port(), "GET / HTTP/1.0\r\n\r\n")), 400);
 }
 
 TEST_F(Live, PagesFromElsewhereGetNothing) {
@@ -92,19 +102,18 @@ TEST_F(Live, PagesFromElsewhereGetNothing) {
        {std::string("http://evil.example"), std::string("null"),
         "https://127.0.0.1:" + std::to_string(port()), std::string("http://127.0.0.1:1")}) {
     for (const char* line : {"GET /", "GET /events", "GET /image/picture", "POST /stop"}) {
-      EXPECT_EQ(status_of(exchange(port(), request(port(), line, "Origin: " + origin + "\r\n"))),
-                403)
+      EXPECT_EQ(status_of(ask(port(), request(port(), line, "Origin: " + origin + "\r\n"))), 403)
           << line << " " << origin;
     }
   }
-  EXPECT_EQ(status_of(exchange(port(), request(port(), "GET /", origin_line(port())))), 200);
+  EXPECT_EQ(status_of(ask(port(), request(port(), "GET /", origin_line(port())))), 200);
 }
 
 TEST_F(Live, StopsOnlyByThePagesButton) {
   const std::string token = token_of(port());
   ASSERT_EQ(token.size(), 32u);
   EXPECT_EQ(status_of(get("/stop")), 405);
-  EXPECT_EQ(status_of(exchange(port(), request(port(), "HEAD /stop"))), 405);
+  EXPECT_EQ(status_of(ask(port(), request(port(), "HEAD /stop"))), 405);
   const std::string own = origin_line(port()), with = "Pssmlt-Token: " + token + "\r\n";
   const std::vector<std::string> refused = {"",
                                             own,
@@ -116,20 +125,20 @@ TEST_F(Live, StopsOnlyByThePagesButton) {
                                             own + own + with,
                                             own + with + with};
   for (const std::string& headers : refused) {
-    EXPECT_EQ(status_of(exchange(port(), request(port(), "POST /stop", headers))), 403) << headers;
+    EXPECT_EQ(status_of(ask(port(), request(port(), "POST /stop", headers))), 403) << headers;
   }
-  EXPECT_EQ(status_of(exchange(port(), request(port(), "POST /stop?" + token, own))), 403);
+  EXPECT_EQ(status_of(ask(port(), request(port(), "POST /stop?" + token, own))), 403);
   EXPECT_FALSE(stop_);
-  EXPECT_EQ(status_of(exchange(port(), stop_request(port(), token))), 202);
+  EXPECT_EQ(status_of(ask(port(), stop_request(port(), token))), 202);
   EXPECT_TRUE(stop_);
   // Pressed twice is pressed once.
-  EXPECT_EQ(status_of(exchange(port(), stop_request(port(), token))), 202);
+  EXPECT_EQ(status_of(ask(port(), stop_request(port(), token))), 202);
 }
 
 TEST_F(Live, OtherMethodsAreRefused) {
   for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT"}) {
     const std::string reply =
-        exchange(port(), request(port(), std::string(method) + " /", origin_line(port())));
+        ask(port(), request(port(), std::string(method) + " /", origin_line(port())));
     EXPECT_EQ(status_of(reply), 405) << method;
   }
 }
@@ -140,11 +149,11 @@ TEST_F(Live, BodiesAreRefusedUnread) {
         std::string("Content-Length: 5\r\nContent-Length: 0\r\n"),
         std::string("Transfer-Encoding: chunked\r\n")}) {
     const std::string text = request(port(), "POST /stop", origin_line(port()) + headers);
-    EXPECT_EQ(status_of(exchange(port(), text + std::string(30000, 'x'))), 413) << headers;
+    EXPECT_EQ(status_of(ask(port(), text + std::string(30000, 'x'))), 413) << headers;
   }
   // What follows a request is not another one.
   const std::string two = request(port(), "GET /") + request(port(), "GET /live.js");
-  EXPECT_EQ(body_of(exchange(port(), two)), "<p>page</p>");
+  EXPECT_EQ(body_of(ask(port(), two)), "<p>page</p>");
 }
 
 TEST_F(Live, MalformedAndOversizedRequests) {
@@ -183,10 +192,12 @@ TEST_F(Live, RangesAndEncodingsChangeNothing) {
                                             "Accept-Encoding: gzip, br\r\n",
                                             "Range: bytes=" + std::string(7000, '1') + "-\r\n"};
   for (const std::string& header : headers) {
-    const std::string reply = exchange(port(), request(port(), "GET /live.js", header));
+    const std::string reply = ask(port(), request(port(), "GET /live.js", header));
     const int status = status_of(reply);
     EXPECT_TRUE(status == 200 || (status >= 400 && status < 500)) << header.substr(0, 40) << status;
-    if (status == 200) EXPECT_EQ(body_of(reply), "code") << header.substr(0, 40);
+    if (status == 200) {
+      EXPECT_EQ(body_of(reply), "code") << header.substr(0, 40);
+    }
   }
   EXPECT_EQ(status_of(get("/")), 200);
 }
@@ -252,7 +263,7 @@ TEST(LiveServerTest, StalledClientsHoldNothingUp) {
   const std::string large(100000, 's');
   for (int i = 0; i < 2000; ++i) server->publish({{"i", i}, {"large", large}});
   slow.send_text("E");
-  EXPECT_EQ(body_of(exchange(port, request(port, "GET /live.js"))), "code");
+  EXPECT_EQ(body_of(ask(port, request(port, "GET /live.js"))), "code");
   const auto start = std::chrono::steady_clock::now();
   server.reset();
   // Far below any of the server's own timeouts (5, 10 and 60 s), far above what it needs.
@@ -312,7 +323,7 @@ TEST(LiveServerTest, OtherMachinesOnlyWhenAsked) {
   const auto status = [&](const std::string& host) {
     const std::string text =
         "GET / HTTP/1.1\r\nHost: " + host + ":" + std::to_string(server.port());
-    return status_of(exchange(server.port(), text + "\r\n\r\n"));
+    return status_of(ask(server.port(), text + "\r\n\r\n"));
   };
   EXPECT_EQ(status("192.168.0.1"), 200);
   EXPECT_EQ(status("127.0.0.1"), 200);

@@ -69,7 +69,7 @@ class RawClient {
 };
 
 // The reply to one request; "" if there is none.
-inline std::string exchange(int port, const std::string& request) {
+inline std::string ask(int port, const std::string& request) {
   RawClient client(port);
   client.send_text(request);
   const std::string reply = client.read_all();

@@ -104,15 +104,15 @@ TEST_F(RenderLive, StopEndsAsAnInterruptDoes) {
     EXPECT_NE(events.find(word), std::string::npos) << word;
   }
   EXPECT_NE(page.read_until("acceptance_rate").find("acceptance_rate"), std::string::npos);
-  const std::string picture = body_of(exchange(at, request(at, "GET /image/picture")));
+  const std::string picture = body_of(ask(at, request(at, "GET /image/picture")));
   EXPECT_EQ(picture.size(), 16u + 6 * 32 * 32);
   EXPECT_EQ(picture.substr(0, 4), "PSH1");
   EXPECT_NE(maps().find("/live_server.so"), std::string::npos);
-  const std::string page_text = body_of(exchange(at, request(at, "GET /")));
+  const std::string page_text = body_of(ask(at, request(at, "GET /")));
   EXPECT_NE(page_text.find("live.js"), std::string::npos);
-  EXPECT_EQ(status_of(exchange(at, request(at, "GET /live.js"))), 200);
-  EXPECT_EQ(status_of(exchange(at, request(at, "GET /live.css"))), 200);
-  EXPECT_EQ(status_of(exchange(at, stop_request(at, token_of(at)))), 202);
+  EXPECT_EQ(status_of(ask(at, request(at, "GET /live.js"))), 200);
+  EXPECT_EQ(status_of(ask(at, request(at, "GET /live.css"))), 200);
+  EXPECT_EQ(status_of(ask(at, stop_request(at, token_of(at)))), 202);
   page.read_until("\"final\":true");
   EXPECT_FALSE(page.timed_out());
   ASSERT_EQ(wait(), 130) << said();
@@ -158,9 +158,10 @@ TEST_F(RenderLive, WatchingChangesNothing) {
 // Every control of the page, in Chromium where there is one.
 TEST_F(RenderLive, ThePageInABrowser) {
   start({"--size", "160x120", "--spp", "1e9", "--live", "-o", in("a.pfm")});
-  const std::string command = "timeout 100 " + std::string(PSSMLT_SOURCE_DIR) +
-                              "/tests/app/live/page_in_browser.py http://127.0.0.1:" +
-                              std::to_string(port()) + "/ >" + in("browser") + " 2>&1";
+  const std::string command =
+      "timeout 100 " + std::string(PSSMLT_SOURCE_DIR) +
+      "/tests/app/live/page_in_browser.py http://127.0.0.1:" + std::to_string(port()) + "/ >" +
+      in("browser") + " 2>&1";
   const int status = std::system(command.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
   if (code == 77) GTEST_SKIP() << bytes_of(in("browser"));
