@@ -163,7 +163,7 @@ class FakeViewer {
   }
   static void channel_names(PacketReader& read) {
     ASSERT_EQ(read.number<int32_t>(), 3);
-    EXPECT_EQ(read.text() + read.text() + read.text(), "RGB");
+    for (const char* name : {"R", "G", "B"}) EXPECT_EQ(read.text(), name);
   }
   static void create(PacketReader& read, Image& picture) {
     const auto width = read.number<int32_t>(), height = read.number<int32_t>();

@@ -89,10 +89,11 @@ TEST_F(Live, OnlyItsOwnHost) {
        {"evil.example:" + p, std::string("evil.example"), std::string("127.0.0.1"),
         std::string("127.0.0.1:1"), "127.0.0.1.evil.example:" + p, "192.168.1.1:" + p,
         "localhost.:" + p, "[127.0.0.1]:" + p, "::1:" + p, "user@127.0.0.1:" + p,
-        "127.0.0.1:" + p + "0", std::string(" "), "0.0.0.0:" + p}) {
+        "127.0.0.1:" + p + "0", "0.0.0.0:" + p}) {
     EXPECT_EQ(status("Host: " + host + "\r\n"), 403) << host;
   }
   EXPECT_EQ(status(""), 400);
+  EXPECT_EQ(status("Host: \r\n"), 400);
   EXPECT_EQ(status(host_line(port()) + host_line(port())), 400);
   EXPECT_EQ(status_of(ask(port(), "GET / HTTP/1.0\r\n\r\n")), 400);
 }
@@ -163,7 +164,7 @@ TEST_F(Live, MalformedAndOversizedRequests) {
                                   "GET /\r\n" + host + "\r\n",
                                   "GET / HTTP/9.9\r\n" + host + "\r\n",
                                   "BREW /pot HTTP/1.1\r\n" + host + "\r\n",
-                                  "GET  /  HTTP/1.1\r\n" + host + "\r\n",
+                                  "GET / / HTTP/1.1\r\n" + host + "\r\n",
                                   std::string("GET /\0/ HTTP/1.1\r\n", 20) + host + "\r\n",
                                   std::string(100, '\0') + "\r\n\r\n",
                                   "\x16\x03\x01\x02\x05\x01\r\n\r\n",

@@ -213,7 +213,7 @@ TEST(Render, SnapshotsComeOnce) {
 // Previews are of whole rounds and change nothing, wanted or not.
 TEST(Render, PreviewsChangeNothing) {
   for (const char* sampler : {"sobol", "pssmlt"}) {
-    const RenderSettings settings = settings_for(16);
+    const RenderSettings settings = settings_for(500);  // several rounds of chains
     const RenderResult plain = render(build_small("path", sampler), settings);
     int asked = 0, given = 0;
     double samples = 0.0;
