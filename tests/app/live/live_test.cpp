@@ -165,7 +165,7 @@ TEST_F(Live, MalformedAndOversizedRequests) {
                                   "GET / HTTP/9.9\r\n" + host + "\r\n",
                                   "BREW /pot HTTP/1.1\r\n" + host + "\r\n",
                                   "GET / / HTTP/1.1\r\n" + host + "\r\n",
-                                  std::string("GET /\0/ HTTP/1.1\r\n", 20) + host + "\r\n",
+                                  std::string("GET /\0/ HTTP/1.1\r\n", 18) + host + "\r\n",
                                   std::string(100, '\0') + "\r\n\r\n",
                                   "\x16\x03\x01\x02\x05\x01\r\n\r\n",
                                   "GET /" + std::string(20000, 'a') + " HTTP/1.1\r\n\r\n",
