@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/live/render_view.h"
 #include "app/progress.h"
 #include "app/render_options.h"
 #include "app/render_record.h"
@@ -195,6 +196,7 @@ int run_render(const Arguments& arguments) {
   if (!options) return exit_done;
   RenderOptions& o = *options;
   set_log_level(o.quiet ? LogLevel::quiet : o.verbose ? LogLevel::verbose : LogLevel::normal);
+  RenderView view(o.view_while, o.scene, stop_requested);
   const BuiltScene scene = load(o);
   if (o.pixel || !o.replay.empty()) return inspect(o, scene);
   prepare_outputs(o, scene);
@@ -205,9 +207,13 @@ int run_render(const Arguments& arguments) {
     RenderCallbacks callbacks;
     callbacks.stop = &stop_requested;
     callbacks.progress = [&display](const Progress& p) { display.show(p); };
+    view.attach(callbacks);
     result = render(scene, o.render, callbacks);
   }
-  return finish(o, scene, result);
+  view.show_result(result);
+  const int code = finish(o, scene, result);
+  view.finish(code, result.complete ? o.outputs : std::vector<std::string>());
+  return code;
 }
 
 }  // namespace pssmlt
