@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/render/likely_values.h"
+
 namespace pssmlt {
 namespace {
 
@@ -222,15 +224,15 @@ void Developer::estimate_pixels(ErrorEstimate& estimate) const {
   std::vector<double> cells(static_cast<size_t>(chain ? grid.count() : film_.pixels()));
   const double epsilon = relative_mse_epsilon * estimate.mean * estimate.mean;
   double energy = 0.0;
+  const Image variances = variance();
+  const Image likely = likely_values(picture(), half(0), half(1));
   for (int p = 0; p < film_.pixels(); ++p) {
-    const dvec3 value = pixel(p);
-    const dvec3 variance = variance_pixel(p);
     double& cell = cells[static_cast<size_t>(chain ? grid.block(p) : p)];
-    for (int c = 0; c < 3; ++c) {
-      const double square = value[c] * value[c];
+    for (size_t c = 3 * static_cast<size_t>(p); c < 3 * static_cast<size_t>(p) + 3; ++c) {
+      const double square = sqr(static_cast<double>(likely.data[c]));
       const double denominator = square + epsilon;
       if (denominator <= 0.0) continue;
-      cell += variance[c] / denominator;
+      cell += static_cast<double>(variances.data[c]) / denominator;
       energy += square / denominator;
     }
   }
