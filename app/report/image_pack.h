@@ -1,5 +1,5 @@
 // Float images as compressed text that the report's page can load by a script tag, and back. The
-// steps are: quantise, decorrelate channels, predict from the left, split bytes, deflate, base64.
+// steps are: quantise, take G, R - G, B - G of the codes, split bytes, deflate, base64.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,9 @@ struct PackedImage {
   int exponent = 0;              // exact
   double low = 0.0, step = 0.0;  // logarithmic, in powers of two
   PackLosses losses;
-  std::string deflated;  // zlib stream of planes(codes), see image_pack.cpp
+  // zlib stream of three planes (of codes G, R - G, B - G), each the low bytes of all pixels, then,
+  // of 16-bit codes, the high ones.
+  std::string deflated;
 };
 
 // `image`: 1 channel, or R, G, B by name or place. Throws Error for other numbers of channels and
