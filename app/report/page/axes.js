@@ -7,7 +7,9 @@
   function tick(value, ticks, format) {
     const decades = Math.log10(ticks[ticks.length - 1].value / ticks[0].value);
     const wanted = decades > 2.5 ? [1] : decades > 1.2 ? [1, 3] : decades > 0.7 ? [1, 2, 5] : [1, 2, 3, 4, 5, 7];
-    return wanted.includes(mantissa(value)) ? format(value) : "";
+    // The ends of the axis are ticks too, but not round.
+    const m = mantissa(value), round = Math.abs(value / (m * 10 ** Math.floor(Math.log10(value) + 1e-9)) - 1) < 1e-6;
+    return round && wanted.includes(m) ? format(value) : "";
   }
   const errorText = (v) => {
     const exponent = Math.floor(Math.log10(v) + 1e-9), m = mantissa(v);

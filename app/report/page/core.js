@@ -18,7 +18,7 @@ window.pssmltReport = {};
     scene: 0, metric: "",
     hidden: new Set(),   // names of techniques left out of the charts
     bands: true, fits: false, guide: true,
-    a: 1, b: 0,          // 1.. techniques, 0 the reference
+    a: 1, b: -1,         // 1.. techniques, 0 the reference; -1: not chosen yet
     mode: "slider",      // slider, flip, grid
     show: "picture",     // picture, signed, absolute, relative
     snapshot: Infinity,  // index into R.snapshotTimes(); beyond the end: the last

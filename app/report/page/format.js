@@ -24,7 +24,7 @@
 
   R.seconds = function (x) {
     if (!known(x)) return R.unknown;
-    if (x < 120) return R.number(x) + " s";
+    if (x < 120) return (Number.isInteger(x) ? String(x) : R.number(x)) + " s";
     const minutes = Math.floor(x / 60);
     if (minutes < 120) return `${minutes} min ${Math.round(x - 60 * minutes)} s`;
     return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
@@ -49,7 +49,8 @@
   // Any JSON value in one line, for parameters and counters.
   R.plain = function (value) {
     if (value === null || value === undefined) return R.unknown;
-    if (typeof value === "number") return Number.isInteger(value) ? String(value) : R.number(value, 5);
+    if (typeof value === "number") return Number.isInteger(value) ? String(value)
+      : R.number(value, 5).replace(/^(−?\d*\.\d*?)0+$/, "$1").replace(/\.$/, "");
     if (Array.isArray(value)) return value.map(R.plain).join(", ");
     if (typeof value === "object") {
       return Object.entries(value).map(([k, v]) => `${k.replaceAll("_", " ")} ${R.plain(v)}`).join(", ");

@@ -15,14 +15,15 @@
     if (R.data.partial) {
       list.push(banner("warn", "Partial results.", R.data.why_partial || "The comparison did not run to its end."));
     }
+    const doubts = R.scenes().filter((s) => s.reference?.agreement?.biased).map((s) => {
+      const { text, p_value: p } = s.reference.agreement;
+      return `${s.name}: ${text || "the techniques that made it disagree beyond what statistics allow"}` +
+        (R.known(p) ? ` (p = ${R.number(p, 2)})` : "");
+    });
+    if (doubts.length) {
+      list.push(banner("bad", "A reference is in doubt; errors against it contain that disagreement.", doubts.join("; ") + "."));
+    }
     for (const scene of R.scenes()) {
-      const agreement = scene.reference?.agreement;
-      if (agreement?.biased) {
-        list.push(banner("bad", `The reference of “${scene.name}” is in doubt:`, (agreement.text ||
-          "the techniques that made it disagree beyond what statistics allow") +
-          (R.known(agreement.p_value) ? ` (p = ${R.number(agreement.p_value, 2)})` : "") +
-          ". Errors against it contain that disagreement."));
-      }
       const bad = (scene.techniques ?? []).filter((t) => t.non_finite > 0)
         .map((t) => `${t.name}: ${R.integer(t.non_finite)}`);
       if (bad.length) list.push(banner("warn", `Samples that were not finite in “${scene.name}”:`, `${bad.join(", ")}. They were left out of the pictures.`));

@@ -29,6 +29,7 @@
       return { n, canvas };
     });
     R.byId("grid").replaceChildren(...grid.map((g) => g.canvas));
+    R.byId("grid").style.setProperty("--across", grid.length === 4 ? 2 : Math.min(3, grid.length));
   }
 
   function shape() {
@@ -58,7 +59,7 @@
     const reference = Boolean(R.scene().reference?.image);
     const patch = {};
     if (!has(R.state.a)) patch.a = Math.min(1, count);
-    if (!has(R.state.b) || (R.state.b === 0 && !reference && count > 1)) patch.b = count > 1 ? 2 : 0;
+    if (!has(R.state.b) || (R.state.b === 0 && !reference && count > 1)) patch.b = count > 1 ? count : 0;
     R.set(patch);
   }
 
