@@ -114,8 +114,6 @@ class PageTest(unittest.TestCase):
 
     def open(self):
         self.driver.get("file://" + os.path.join(self.folder, "index.html"))
-        self.js("try { localStorage.clear() } catch {}")
-        self.driver.refresh()
         self.until("pssmltReport.viewerOn")
         self.settle()
 
