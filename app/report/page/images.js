@@ -39,14 +39,17 @@ R.loadImage = function(id) {
   if (known) return entry.promise;
   const url = R.imageUrl(id);
   const script = R.make('script', {src: version ? `${url}?${version}` : url});
+  const fail = (why) => {
+    entry.failed = true;
+    entry.reject(new Error(`images/${id}.js ${why}`));
+  };
   script.onload = () => {
     script.remove();
-    entry.loaded = true;
+    if (!entry.arrived) fail('does not hold that picture');
   };
   script.onerror = () => {
     script.remove();
-    cache.delete(id);
-    entry.reject(new Error(`images/${id}.js is missing`));
+    fail('is missing');
   };
   document.head.append(script);
   return entry.promise;
@@ -57,6 +60,11 @@ R.imageNow = function(id) {
   if (entry) entry.used = ++clock;
   return entry?.image ?? null;
 };
+// What could not be loaded is tried again with new data only.
+R.on('data', () => {
+  for (const [id, entry] of cache)
+    if (entry.failed) cache.delete(id);
+});
 R.forget = function(id) {
   cache.delete(id);
   ++version;
@@ -65,6 +73,7 @@ R.forget = function(id) {
 R.image = async function(packed) {
   const entry = entryOf(packed.id);
   const replaced = entry.image;
+  entry.arrived = true;
   try {
     entry.image = await decode(packed);
     entry.image.id = packed.id;
@@ -73,7 +82,7 @@ R.image = async function(packed) {
     drop();
     if (replaced) R.set({images: R.state.images + 1});
   } catch (error) {
-    cache.delete(packed.id);
+    entry.failed = true;
     entry.reject(new Error(`images/${packed.id}.js is broken: ${error.message}`));
   }
 };

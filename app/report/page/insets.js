@@ -4,7 +4,7 @@
 (function(R) {
 const count = 3;
 R.insetName = (i) => 'abc'[i];
-let round = 0;
+let round = 0, placed = null;
 let cells = [];  // [{n, inset, canvas}]
 
 // The mean over a block of |luminance - reference| / (reference + offset), each pixel at most 1, so
@@ -53,9 +53,13 @@ R.findInsets = function(images, reference) {
 
 R.placeInsets = async function() {
   const mine = ++round, note = R.byId('insets-note');
-  R.set({insets: []});
-  build();
   const entries = [...Array(R.shownCount() + 1).keys()].map((n) => R.lastSnapshot(n));
+  // New data about the same pictures: only names may have changed.
+  const pictures = [R.state.scene, ...entries.map((e) => e?.image)].join(' ');
+  if (pictures !== placed) R.set({insets: []});
+  build();
+  if (pictures === placed) return;
+  placed = null;
   if (!entries[0]) {
     note.textContent = 'Without a reference no places can be chosen.';
     return;
@@ -72,6 +76,7 @@ R.placeInsets = async function() {
   note.textContent = insets.length ? 'Chosen on the last snapshots by the spread of the relative ' +
           'error; they follow time, exposure and what is shown. Choose one to see it above.' :
                                      'The techniques do not differ anywhere.';
+  placed = pictures;
   R.set({insets});
   build();
   R.redraw();

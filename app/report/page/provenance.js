@@ -113,11 +113,15 @@ function metrics() {
 }
 
 R.on('data scene theme', () => {
+  const open = [...R.byId('provenance').querySelectorAll('details')].map((d) => d.open);
   R.byId('provenance')
       .replaceChildren(
           make('h3', {}, 'The command that repeats it'), command(),
           make('h3', {}, `Reference and scene: ${R.scene().name ?? R.unknown}`),
           reference(R.scene()), make('h3', {}, 'Parameters in full'), ...parameters(),
           make('h3', {}, 'Metrics'), metrics(), make('h3', {}, 'Machine and versions'), machine());
+  R.byId('provenance').querySelectorAll('details').forEach((d, i) => {
+    d.open = open[i] ?? false;
+  });
 });
 })(window.pssmltReport);

@@ -28,6 +28,12 @@ function build() {
 }
 
 function buildGrid() {
+  if (grid.length === R.shownCount() + 1) {
+    for (const {n, canvas} of grid) {
+      canvas.setAttribute('aria-label', `Picture of ${R.shownName(n)}`);
+    }
+    return;
+  }
   const order = [...Array(R.shownCount()).keys()].map((i) => i + 1).concat(0);
   grid = order.map((n) => {
     const canvas = R.make(
@@ -72,6 +78,8 @@ function choose() {
   const count = R.shownCount(), has = (n) => n >= 0 && n <= count;
   const reference = Boolean(R.scene().reference?.image);
   const patch = {};
+  // Nothing to stand beside it.
+  if (count === 1 && !reference && R.state.b < 0) patch.mode = 'flip';
   if (!has(R.state.a)) patch.a = Math.min(1, count);
   if (!has(R.state.b) || (R.state.b === 0 && !reference && count > 1))
     patch.b = count > 1 ? count : 0;

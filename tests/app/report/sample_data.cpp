@@ -132,6 +132,10 @@ void add_metrics(json& result, const Settings& s, int technique, int scene, std:
 }
 
 json technique_result(const Settings& s, int technique, int scene) {
+  if (s.bare) {
+    return {{"name", technique_name(technique, s.hostile)},
+            {"images", images(s, technique, scene)}};
+  }
   std::mt19937 random(static_cast<unsigned>(17 * technique + scene));
   json result = {
       {"name", technique_name(technique, s.hostile)},
@@ -163,6 +167,7 @@ json technique_result(const Settings& s, int technique, int scene) {
 json scene_result(const Settings& s, int scene) {
   json results = json::array();
   for (int t = 0; t < s.techniques; ++t) results.push_back(technique_result(s, t, scene));
+  if (s.bare) return {{"name", scene_name(scene, s.hostile)}, {"techniques", results}};
   json floor;
   for (size_t m = 0; m < metric_ids.size(); ++m) {
     floor[metric_ids[m]] = s.gaps ? json() : json(0.5 * law_of(2, scene, m).at(seconds));
@@ -220,6 +225,7 @@ json data(const Settings& s) {
                           {"settings", {"integrator.maxdepth=8"}}});
   }
   for (int scene = 0; scene < s.scenes; ++scene) scenes.push_back(scene_result(s, scene));
+  if (s.bare) return {{"format", 1}, {"techniques", techniques}, {"scenes", scenes}};
   return {
       {"format", 1},
       {"program", {{"version", "0.1.0"}, {"libraries", {{"Embree", "3.13.5"}}}}},

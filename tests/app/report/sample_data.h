@@ -15,6 +15,7 @@ struct Settings {
   bool partial = false, biased = false;
   bool gaps = false;     // numbers that are null, tables that are missing
   bool hostile = false;  // names that are HTML
+  bool bare = false;     // pictures only, no reference: a comparison that has just begun
 };
 
 // What a technique's picture of `scene` is after `seconds`; infinite time: the reference.

@@ -13,8 +13,11 @@ int main(int argc, char** argv) {
   const std::map<std::string, int*> numbers = {
       {"techniques", &s.techniques}, {"scenes", &s.scenes}, {"runs", &s.runs},
       {"snapshots", &s.snapshots},   {"width", &s.width},   {"height", &s.height}};
-  const std::map<std::string, bool*> flags = {
-      {"partial", &s.partial}, {"biased", &s.biased}, {"gaps", &s.gaps}, {"hostile", &s.hostile}};
+  const std::map<std::string, bool*> flags = {{"partial", &s.partial},
+                                              {"biased", &s.biased},
+                                              {"gaps", &s.gaps},
+                                              {"hostile", &s.hostile},
+                                              {"bare", &s.bare}};
   for (int i = 2; i < argc; ++i) {
     const std::string argument = argv[i], name = argument.substr(0, argument.find('='));
     const std::string text = argument.substr(std::min(name.size() + 1, argument.size()));

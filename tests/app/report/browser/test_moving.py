@@ -108,6 +108,7 @@ class Moving(PageTest):
                             "insets follow time")
 
     def test_data_and_pictures_are_replaced_at_run_time(self):
+        self.click("#provenance summary")
         self.keys("+")
         self.js("const d = structuredClone(pssmltReport.data); d.partial = true;"
                 "d.why_partial = 'still running'; d.techniques[0].name = 'renamed';"
@@ -116,6 +117,9 @@ class Moving(PageTest):
         self.assertIn("still running", self.text("#banners"))
         self.assertIn("renamed", self.text("#legend"))
         self.assertAlmostEqual(2, self.view()["scale"], msg="the view stays")
+        self.assertEqual(3, len(self.get("R.state.insets")), "insets stay")
+        self.assertIn("renamed", self.text("#insets"))
+        self.assertTrue(self.get("document.querySelector('#provenance details').open"))
         self.js("pssmltReport.set({insets: [], a: 0, b: 0});")
         self.settle()
         self.driver.execute_async_script(  # a black picture: all codes 0

@@ -206,6 +206,17 @@ class Hostile(PageTest):
         self.assertEqual([], self.driver.find_elements(By.CSS_SELECTOR, "main img, main script"))
 
 
+class Bare(PageTest):
+    SETTINGS = ("width=64", "height=36", "snapshots=1", "techniques=1", "bare=1")
+
+    def test_pictures_without_anything_else(self):
+        self.assertEqual("flip", self.get("R.state.mode"))
+        self.assertEqual("0-0-0", self.get("R.shownImage(1).image.id"))
+        self.assertIn("Without a reference", self.text("#insets-note"))
+        self.assertFalse(self.find("#calibration").is_displayed())
+        self.assertNotRegex(self.text("main"), "NaN|undefined|null")
+
+
 class Empty(PageTest):
     SETTINGS = ("techniques=0", "scenes=0")
 
