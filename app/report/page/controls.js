@@ -62,13 +62,19 @@ const range = (id, min, max, step, oninput) => make(
             ([key, text]) => make(
                 'button', {type: 'button', id: `mode-${key}`, onclick: () => R.set({mode: key})},
                 text)));
+    const frames = make(
+        'label', {class: 'check'},
+        make(
+            'input',
+            {type: 'checkbox', id: 'frames', onchange: (e) => R.set({frames: e.target.checked})}),
+        'outline insets');
     const show = select('show', 'show');
     show.append(...Object.entries(shows).map(([value, text]) => make('option', {value}, text)));
     return {
       above: make(
           'div', {class: 'bar'}, mode, field('A', select('a', 'a', true)),
           button('swap', '⇄', 'Swap A and B (space)', R.swap), field('B', select('b', 'b', true)),
-          field('Show', show)),
+          field('Show', show), frames),
       below: make(
           'div', {class: 'sliders'},
           row('time', 'Time', range('time', 0, 0, 1, (v) => R.set({snapshot: v})),
@@ -110,6 +116,7 @@ const range = (id, min, max, step, oninput) => make(
     R.byId('exposure').setAttribute('aria-valuetext', R.byId('exposure-text').textContent = stops);
     R.byId('split-text').textContent = `${Math.round(100 * s.split)} %`;
     R.byId('split-row').hidden = s.mode !== 'slider';
+    R.byId('frames').checked = s.frames;
     R.byId('b').disabled = s.mode !== 'slider' && s.mode !== 'flip';
     R.byId('a').disabled = s.mode === 'grid';
     R.byId('zoom-text').textContent = `${R.number(s.view.scale, 2)} ×`;

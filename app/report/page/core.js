@@ -30,6 +30,7 @@ R.state = {
   split: 0.5,                        // of the slider, part of the view's width
   view: {scale: 1, x: 0.5, y: 0.5},  // 1: the whole picture fits; the centre, part of the picture
   cursor: null,                      // {x, y} pixel under the cursor
+  frames: true,                      // whether insets are outlined in the pictures
   insets: [],                        // [{x, y, size}] pixels
   images: 0,                         // counts replaced images
   theme: '',

@@ -30,6 +30,7 @@ const keys = [
   ],
   ['[ ,', 'earlier snapshot', () => time(-1), '[ or ,'],
   ['] .', 'later snapshot', () => time(1), '] or .'],
+  ['i', 'insets outlined or not', () => R.set({frames: !R.state.frames})],
   ['e', 'brighter', () => step('exposure', 0.5, -12, 12)],
   ['d', 'darker', () => step('exposure', -0.5, -12, 12)],
   ['+ =', 'zoom in', () => R.zoom(2), '+'],

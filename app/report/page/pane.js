@@ -118,7 +118,7 @@ R.drawPane = function(canvas, parts) {
   context.clearRect(0, 0, w, h);
   const g = image ? R.geometry(canvas, image) : {scale: 1, x: 0, y: 0, w, h};
   for (const p of parts) drawOne(context, g, p.n, p.from * w, p.to * w);
-  if (image) outlines(g, context);
+  if (image && R.state.frames) outlines(g, context);
   parts.forEach((p, i) => label(context, R.shownName(p.n), i ? w - 6 : 6, 6, i ? 'right' : 'left'));
   if (parts.length === 2) {
     const x = parts[0].to * w;

@@ -71,6 +71,7 @@ R.updateScale = function() {
       make('span', {}, R.number(top, 2)), make('span', {class: 'note'}, formula));
 };
 
+const counted = (n) => `${R.integer(n)} ${n === 1 ? 'value' : 'values'}`;
 R.updateMarks = function() {
   const marks = [];
   for (const n of R.panesShown()) {
@@ -79,8 +80,8 @@ R.updateMarks = function() {
     const what = [];
     if (image.precision === 'logarithmic')
       what.push(`8-bit logarithmic snapshot, values ±${R.number(100 * image.error, 2)} %`);
-    if (image.nonFinite) what.push(`${R.integer(image.nonFinite)} values not finite (magenta)`);
-    if (image.clamped) what.push(`${R.integer(image.clamped)} values beyond the encoding’s range`);
+    if (image.nonFinite) what.push(`${counted(image.nonFinite)} not finite (magenta)`);
+    if (image.clamped) what.push(`${counted(image.clamped)} beyond the encoding’s range`);
     if (what.length) marks.push(`${R.shownName(n)}: ${what.join('; ')}.`);
   }
   const text = marks.join(' ');

@@ -115,7 +115,7 @@ R.on('data scene', () => {
   buildGrid();
   if (R.viewerOn) R.startViewer();
 });
-R.on('data scene a b mode show snapshot exposure split view images', () => {
+R.on('data scene a b mode show snapshot exposure split view frames images', () => {
   R.updateControls();
   R.redraw();
 });
