@@ -6,7 +6,11 @@ R.scene = () => R.scenes()[R.state.scene] ?? {};
 R.techniques = () => R.data.techniques ?? [];
 R.metrics = () => R.data.metrics ?? [];
 R.metric = () => R.metrics().find((m) => m.id === R.state.metric) ?? {};
-R.budget = () => R.data.settings?.seconds;
+// The time that the errors at the end belong to, which is common to all techniques.
+R.endText = () => {
+  const end = R.scene().end_seconds ?? R.data.settings?.seconds;
+  return R.known(end) ? `after ${R.seconds(end)}` : 'at the end';
+};
 
 // A scene's results in the order of the list of techniques; [index, result].
 R.results = (scene = R.scene()) =>

@@ -37,7 +37,7 @@ function banners() {
                     .map((t) => `${t.name}: ${R.integer(t.non_finite)}`);
     if (bad.length)
       list.push(banner(
-          'warn', `Samples that were not finite in “${scene.name}”:`,
+          'warn', `Dropped samples in “${scene.name}”:`,
           `${bad.join(', ')}. They were left out of the pictures.`));
   }
   R.byId('banners').replaceChildren(...list);
@@ -84,8 +84,7 @@ function headline() {
     line.textContent = 'No error is known yet.';
     return;
   }
-  const [best, next] = ends,
-               time = R.known(R.budget()) ? `After ${R.seconds(R.budget())}` : 'At the end';
+  const [best, next] = ends, time = R.endText().replace('a', 'A');
   const unclear = next && (!R.known(best.high) || !R.known(next.low) || best.high >= next.low);
   const error = `${R.metric().name ?? R.state.metric} ${R.interval(best)}`;
   const first = R.techniques()[0]?.name;

@@ -46,10 +46,11 @@ function reference(scene) {
     [
       'source',
       r.source === 'made' ? `made by ${R.plain(r.techniques)}` :
-          r.source === 'file' ? 'a file that was given' :
+          r.source === 'file' ? `the file ${r.file ?? R.unknown}` :
                                 r.source ?? R.unknown
     ],
     R.known(r.seconds) ? ['time', R.seconds(r.seconds)] : null,
+    R.known(r.mean_error) ? ['error of its mean', `${R.number(100 * r.mean_error, 2)} %`] : null,
     ['its own error', floor || R.unknown],
     [
       'agreement of its two halves',
@@ -103,6 +104,7 @@ function machine() {
       `${R.seconds(s.seconds)} a technique and run, ${R.plain(s.runs)} runs, ${
           R.plain(s.snapshots)} snapshots, ${R.plain(s.threads)} threads, seed ${R.plain(s.seed)}`
     ],
+    R.known(s.slice_seconds) ? ['slices', `${R.seconds(s.slice_seconds)}, in turn`] : null,
     ['made', R.data.created ?? R.unknown]
   ]);
 }

@@ -1,25 +1,31 @@
-// The tables of the chosen scene, and over all scenes.
+// The tables of the chosen scene.
 'use strict';
 (function(R) {
 const known = R.known;
-const rowsOf = (cells) =>
-    R.results().map(([index, t]) => ({index, name: t.name, cells: cells(t, index)}));
+const rowsOf = (cells) => R.results().map(([index, t]) => ({index, name: t.name, cells: cells(t)}));
 const lowest = (metric) =>
     Math.min(...R.results().map(([, t]) => t.at_end?.[metric]?.mean).filter(known));
 
+// An error at the end; what is near the reference's own error is no more than a bound.
+R.errorCell = (end, best) => ({
+  text: R.interval(end) + (end?.near_floor ? ' *' : ''),
+  strong: known(end?.mean) && end.mean === best,
+  note: end?.near_floor ? 'Near the reference’s own error' : null
+});
+const plusMinus = (x) => (known(x) ? ` ± ${R.number(x, 2)}` : '');
+const slopeText = (slope) =>
+    (known(slope?.value) ? R.number(slope.value, 3) + plusMinus(slope.error) : R.unknown);
+
 function atEnd() {
   const metric = R.state.metric, best = lowest(metric);
-  const rows = rowsOf((t) => {
-    const end = t.at_end?.[metric], slope = t.slope?.[metric];
-    return [
-      {text: R.interval(end), strong: end?.mean === best},
-      R.interval(t.speed_up?.[metric], R.times), R.number(t.efficiency?.[metric]),
-      known(slope?.value) ?
-          R.number(slope.value, 3) + (known(slope.error) ? ` ± ${R.number(slope.error, 2)}` : '') :
-                                                           R.unknown,
-      slope?.verdict ?? R.unknown
-    ];
-  });
+  const rows = rowsOf(
+      (t) =>
+          [R.errorCell(t.at_end?.[metric], best),
+           R.interval(t.speed_up?.[metric], R.times),
+           R.number(t.efficiency?.[metric]),
+           slopeText(t.slope?.[metric]),
+           t.slope?.[metric]?.verdict ?? R.unknown,
+  ]);
   const columns = [
     {title: 'technique'},
     {title: 'error [95 %]'},
@@ -28,10 +34,12 @@ function atEnd() {
     {title: 'slope', note: 'In the log-log chart; −1: independent samples'},
     {title: 'verdict'},
   ];
+  const marked = R.results().some(([, t]) => t.at_end?.[metric]?.near_floor);
   return R.table(
-      `${R.metric().name ?? metric} at the end`, columns, rows,
+      `${R.metric().name ?? metric} ${R.endText()}`, columns, rows,
       'Speed-up: error of the first technique / error of this one after the same time. ' +
-          'Efficiency: 1 / (error × time). Lowest error in bold.');
+          'Efficiency: 1 / (error × time). Lowest error in bold.' +
+          (marked ? ' *: near the reference’s own error.' : ''));
 }
 
 function timeTo() {
@@ -43,9 +51,9 @@ function timeTo() {
   const rows = rowsOf((t) => targets.map((target) => {
     const entry = (t.time_to?.[metric] ?? []).find((e) => e.error === target);
     if (!entry) return R.unknown;
-    return known(entry.seconds) ?
-        R.interval({mean: entry.seconds, low: entry.low, high: entry.high}, R.seconds) :
-        'not reached';
+    if (!known(entry.seconds)) return 'not reached';
+    // Below it from the first snapshot on: when it was reached is not known.
+    return (entry.at_most ? '≤ ' : '') + R.interval({...entry, mean: entry.seconds}, R.seconds);
   }));
   return R.table(
       `Time to reach an error (${R.metric().name ?? metric})`,
@@ -54,23 +62,18 @@ function timeTo() {
 }
 
 function allMetrics() {
-  const metrics = R.metrics();
+  const metrics = R.metrics(), best = metrics.map((m) => lowest(m.id));
   const rows = rowsOf(
-      (t) => metrics
-                 .map((m) => ({
-                        text: R.interval(t.at_end?.[m.id]),
-                        strong: t.at_end?.[m.id]?.mean === lowest(m.id)
-                      }))
-                 .concat(bias(t)));
-  return R.table(
-      'All metrics at the end',
-      [
-        {title: 'technique'}, ...metrics.map((m) => ({title: m.name ?? m.id, note: m.formula})), {
-          title: 'bias of the mean',
-          note: 'Mean luminance less the reference\'s, over the reference\'s'
-        }
-      ],
-      rows);
+      (t) =>
+          [...metrics.map((m, i) => R.errorCell(t.at_end?.[m.id], best[i])),
+           bias(t),
+  ]);
+  const columns = [
+    {title: 'technique'},
+    ...metrics.map((m) => ({title: m.name ?? m.id, note: m.formula})),
+    {title: 'bias of the mean', note: 'Mean luminance less the reference’s, over the reference’s'},
+  ];
+  return R.table(`All metrics ${R.endText()}`, columns, rows);
 }
 // Mean over the runs; its standard error from the runs where there are several.
 function bias(t) {
@@ -86,62 +89,35 @@ function bias(t) {
 }
 
 function work() {
+  const ofChains = (x) =>
+      (x === null ? {text: 'no chains', faint: true} : {text: R.plain(x), faint: x === undefined});
   const rows = rowsOf(
       (t) =>
-          [R.count(t.rates?.samples_per_second), R.count(t.rates?.rays_per_second), {
-            text: t.acceptance === null ? 'no chains' : R.plain(t.acceptance),
-            faint: t.acceptance === null
-          },
-           {text: t.b === null ? 'no chains' : R.plain(t.b), faint: t.b === null},
-           R.integer(t.non_finite), R.bytes(t.peak_bytes)]);
+          [R.count(t.rates?.samples_per_second),
+           R.count(t.rates?.rays_per_second),
+           ofChains(t.acceptance),
+           ofChains(t.b),
+           R.integer(t.non_finite),
+           R.bytes(t.film_bytes),
+           R.bytes(t.peak_bytes),
+  ]);
+  const columns = [
+    {title: 'technique'},
+    {title: 'samples/s'},
+    {title: 'rays/s'},
+    {title: 'acceptance'},
+    {title: 'b', note: 'The picture’s mean, estimated by independent samples'},
+    {title: 'dropped samples', note: 'Not finite, negative or beyond the film’s range'},
+    {title: 'film'},
+    {title: 'peak memory', note: 'Of the process, which all techniques share'},
+  ];
   const load = R.scene().load_seconds;
-  return R.table(
-      'Work',
-      [
-        {title: 'technique'}, {title: 'samples/s'}, {title: 'rays/s'}, {title: 'acceptance'},
-        {title: 'b', note: 'The picture\'s mean, estimated by independent samples'},
-        {title: 'non-finite samples'}, {title: 'peak memory'}
-      ],
-      rows,
-      known(load) ?
-          `Loading the scene took ${R.seconds(load)}, which is not part of any technique’s time.` :
-          null);
-}
-
-function suite() {
-  const metric = R.state.metric, scenes = R.scenes(), means = R.data.suite?.[metric];
-  if (scenes.length < 2) return null;
-  const first = R.techniques()[0]?.name;
-  const rows = R.techniques().map(
-      (t, index) => ({
-        index,
-        name: t.name,
-        cells:
-            scenes
-                .map((scene) => {
-                  const ends =
-                      (scene.techniques ?? []).map((x) => x.at_end?.[metric]?.mean).filter(known);
-                  const end = R.result(index, scene)?.at_end?.[metric];
-                  return {
-                    text: R.interval(end),
-                    strong: known(end?.mean) && end.mean === Math.min(...ends)
-                  };
-                })
-                .concat((() => {
-                  const m = means?.[t.name];
-                  return R.interval(m ? {value: m.geometric_mean, low: m.low, high: m.high} : null);
-                })())
-      }));
-  return R.table(
-      `All scenes: ${R.metric().name ?? metric} at the end`,
-      [{title: 'technique'}, ...scenes.map((s) => ({title: s.name})), {title: 'geometric mean'}],
-      rows,
-      `Geometric mean over the scenes of the error’s ratio to ${
-          first}’s. Lowest error of a scene in bold.`);
+  const note = `Loading the scene took ${R.seconds(load)}, which is part of no technique’s time.`;
+  return R.table('Work', columns, rows, known(load) ? note : null);
 }
 
 R.on('data scene metric theme', () => {
-  R.byId('tables').replaceChildren(
-      ...[suite(), atEnd(), timeTo(), allMetrics(), work()].filter(Boolean));
+  const tables = [R.suiteTable(), atEnd(), timeTo(), allMetrics(), work()];
+  R.byId('tables').replaceChildren(...tables.filter(Boolean));
 });
 })(window.pssmltReport);

@@ -21,7 +21,7 @@ class Page(PageTest):
         data = self.get("R.data.scenes[0].techniques[0].curve.flip.mean")
         self.assertEqual(data, [p[1] for p in self.chart()[0]])
         self.assertEqual("HDR-FLIP", self.get("R.chartOf(R.byId('chart')).scales.y.options.title.text"))
-        self.assertIn("HDR-FLIP at the end", self.text("#tables"))
+        self.assertIn("HDR-FLIP after 59.5 s", self.text("#tables"))
         self.assertNotEqual(table, self.text("#tables"))
 
     def test_axes_are_logarithmic_and_curves_are_painted(self):
@@ -73,6 +73,8 @@ class Page(PageTest):
     def test_tables_hold_what_the_data_hold(self):
         text = self.text("#numbers")
         for expected in ("speed-up", "not reached", "has not mixed", "steeper", "1.20 M", "no chains",
+                         "relative MSE after 59.5 s", "≤ ", "near the reference’s own error",
+                         "dropped samples", "2.86 MiB",
                          "large 0.21, small 0.58", "488 MiB", "relative error 0.002", "bias of the mean"):
             self.assertIn(expected, text)
         self.assertRegex(self.text("#calibration-table"),
