@@ -47,7 +47,8 @@ R.bytes = (x) => (known(x) ? scaled(x, 1024, ['B', 'KiB', 'MiB', 'GiB', 'TiB']) 
 R.interval = function(x, format = R.number) {
   if (!x || !known(x.mean ?? x.value)) return R.unknown;
   const text = format(x.mean ?? x.value);
-  return known(x.low) && known(x.high) ? `${text} [${format(x.low)}, ${format(x.high)}]` : text;
+  return known(x.low) && known(x.high) ? `${text} [${format(x.low)},\u00a0${format(x.high)}]` :
+                                         text;
 };
 R.times = (x) => (known(x) ? R.number(x) + ' ×' : R.unknown);
 
