@@ -107,6 +107,12 @@ function drawOne(context, g, n, x0, x1) {
   context.restore();
 }
 
+// Snapshots of techniques are not taken at quite the same time.
+function titleOf(n) {
+  const {entry} = R.shownImage(n);
+  return R.shownName(n) + (R.known(entry?.seconds) ? `, ${R.seconds(entry.seconds)}` : '');
+}
+
 // `parts`: [{n, from, to}] in parts of the pane's width.
 R.drawPane = function(canvas, parts) {
   const ratio = devicePixelRatio, w = canvas.clientWidth, h = canvas.clientHeight;
@@ -119,7 +125,7 @@ R.drawPane = function(canvas, parts) {
   const g = image ? R.geometry(canvas, image) : {scale: 1, x: 0, y: 0, w, h};
   for (const p of parts) drawOne(context, g, p.n, p.from * w, p.to * w);
   if (image && R.state.frames) outlines(g, context);
-  parts.forEach((p, i) => label(context, R.shownName(p.n), i ? w - 6 : 6, 6, i ? 'right' : 'left'));
+  parts.forEach((p, i) => label(context, titleOf(p.n), i ? w - 6 : 6, 6, i ? 'right' : 'left'));
   if (parts.length === 2) {
     const x = parts[0].to * w;
     context.fillStyle = 'rgba(0,0,0,.6)';
