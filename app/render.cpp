@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "app/live/render_view.h"
 #include "app/progress.h"
 #include "app/render_options.h"
+#include "app/render_record.h"
 #include "app/summary.h"
 #include "core/base/log.h"
 #include "core/render/auxiliary.h"
@@ -81,24 +83,7 @@ BuiltScene load(RenderOptions& o) {
 }
 
 ImageMetadata metadata(const RenderOptions& o, const BuiltScene& scene, const RenderResult& r) {
-  std::string integrators, samplers;
-  for (const Layer& layer : scene.layers) {
-    integrators += (integrators.empty() ? "" : " + ") + layer.integrator_name;
-    samplers += (samplers.empty() ? "" : " + ") + layer.sampler_name;
-  }
-  const ErrorEstimate& e = r.error;
-  return {{"software", "pssmlt " PSSMLT_VERSION},
-          {"pssmlt:scene", o.scene},
-          {"pssmlt:scene_hash", fmt::format("{:016x}", scene.scene_hash)},
-          {"pssmlt:settings_hash", fmt::format("{:016x}", scene.settings_hash)},
-          {"pssmlt:integrator", integrators},
-          {"pssmlt:sampler", samplers},
-          {"pssmlt:seed", std::to_string(o.render.seed)},
-          {"pssmlt:samples", fmt::format("{:.0f}", r.samples)},
-          {"pssmlt:seconds", fmt::format("{:.3f}", r.seconds)},
-          {"pssmlt:error",
-           e.known ? fmt::format("relMSE {:.6g} ({:.6g} to {:.6g})", e.relative_mse, e.low, e.high)
-                   : "unknown"}};
+  return to_metadata(make_record(o.scene, scene, o.render.seed, r));
 }
 
 // The images beside the picture that --aux asks for.
@@ -211,6 +196,7 @@ int run_render(const Arguments& arguments) {
   if (!options) return exit_done;
   RenderOptions& o = *options;
   set_log_level(o.quiet ? LogLevel::quiet : o.verbose ? LogLevel::verbose : LogLevel::normal);
+  RenderView view(o.view_while, o.scene, stop_requested);
   const BuiltScene scene = load(o);
   if (o.pixel || !o.replay.empty()) return inspect(o, scene);
   prepare_outputs(o, scene);
@@ -221,9 +207,13 @@ int run_render(const Arguments& arguments) {
     RenderCallbacks callbacks;
     callbacks.stop = &stop_requested;
     callbacks.progress = [&display](const Progress& p) { display.show(p); };
+    view.attach(callbacks);
     result = render(scene, o.render, callbacks);
   }
-  return finish(o, scene, result);
+  view.show_result(result);
+  const int code = finish(o, scene, result);
+  view.finish(code, result.complete ? o.outputs : std::vector<std::string>());
+  return code;
 }
 
 }  // namespace pssmlt

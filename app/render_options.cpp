@@ -79,6 +79,26 @@ void add_output_options(CLI::App& app, RenderOptions& o, RawOptions& raw) {
   app.add_option("--replay", o.replay, "print the sample with this key instead of rendering");
 }
 
+void add_view_options(CLI::App& app, RenderOptions& o) {
+  ViewOptions& v = o.view_while;
+  const auto live =
+      app.add_flag("--live", v.live, "serve a page that shows the render while it runs");
+  app.add_option("--port", v.port, "port of the page (any that is free)")
+      ->check(CLI::Range(1, 65535))
+      ->needs(live);
+  app.add_option("--live-address", v.address, "numeric address to serve the page at (127.0.0.1)")
+      ->needs(live);
+  app.add_flag("--live-public", v.allow_public,
+               "allow an address that other machines reach; who reaches it may watch and stop")
+      ->needs(live);
+  const auto display =
+      app.add_option("--display", v.display, "show the picture in the viewer tev at host:port");
+  for (const char* instead : {"--pixel", "--replay"}) {
+    live->excludes(app.get_option(instead));
+    display->excludes(app.get_option(instead));
+  }
+}
+
 std::vector<std::string> parse_auxiliary(const std::string& text) {
   static const std::vector<std::string> known = {"albedo", "normal", "depth",
                                                  "error",  "halves", "variance"};
@@ -149,6 +169,7 @@ std::optional<RenderOptions> parse_render_options(const Arguments& arguments) {
   add_scene_options(app, o, raw);
   add_budget_options(app, o, raw);
   add_output_options(app, o, raw);
+  add_view_options(app, o);
   if (!parse_arguments(app, arguments)) return std::nullopt;
   understand_scene_options(o, raw);
   understand_budget_options(app, o, raw);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/live/render_view.h"
 #include "core/render/render.h"
 
 namespace pssmlt {
@@ -15,6 +16,7 @@ struct RenderOptions {
   std::vector<std::string> outputs;  // empty: the film's filename
   BuildOptions build;
   RenderSettings render;
+  ViewOptions view_while;  // who watches while it renders
   std::optional<uint64_t> seed;
   bool quiet = false, verbose = false;
   std::string json;  // file for the statistics; "": none

@@ -44,9 +44,5 @@ inline float max_component(const vec3& v) {
   const float yz = v.y > v.z ? v.y : v.z;
   return v.x > yz ? v.x : yz;
 }
-inline float min_component(const vec3& v) {
-  const float yz = v.y < v.z ? v.y : v.z;
-  return v.x < yz ? v.x : yz;
-}
 
 }  // namespace pssmlt

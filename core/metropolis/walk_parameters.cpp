@@ -25,8 +25,8 @@ KernelShape shape_of(std::string_view name) {
 StepMix read_step_mix(Parameters& p) {
   StepMix mix;
   mix.large = probability(p, "largestepprobability", 0.3f, "of drawing all numbers anew");
-  mix.film = probability(p, "filmprobability", 0.1f, "of small steps: of the film position alone");
-  mix.stream = probability(p, "streamprobability", 0.2f,
+  mix.film = probability(p, "filmprobability", 0.3f, "of small steps: of the film position alone");
+  mix.stream = probability(p, "streamprobability", 0.f,
                            "of small steps: of one stream alone (camera, light, connections)");
   mix.range = probability(p, "rangeprobability", 0.f, "of small steps: of some vertices alone");
   if (mix.large <= 0.0) p.fail("largestepprobability", "\"largestepprobability\" must not be 0");

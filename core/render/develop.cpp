@@ -7,6 +7,8 @@
 namespace pssmlt {
 namespace {
 
+constexpr int strip = 4096;  // pixels that one thread develops at a time
+
 // A half's sum times this is an estimate of the whole: samples add up, scales are their inverse.
 std::array<double, 2> half_scales(const std::array<double, group_count>& group) {
   std::array<double, 2> samples{};
@@ -57,16 +59,22 @@ Developer::Developer(const Film& film, std::vector<LayerScales> layers, double p
   }
 }
 
+// Pixels [begin, end).
+template <typename Value>
+void Developer::fill(Image& image, int begin, int end, const Value& value) const {
+  for (int p = begin; p < end; ++p) {
+    const dvec3 v = value(p);
+    for (int c = 0; c < 3; ++c) {
+      image.data[static_cast<size_t>(p) * 3 + static_cast<size_t>(c)] = static_cast<float>(v[c]);
+    }
+  }
+}
+
 template <typename Value>
 Image Developer::image(const Value& value) const {
   const ivec2 size = film_.settings().size;
   Image result(size.x, size.y, 3);
-  for (int p = 0; p < film_.pixels(); ++p) {
-    const dvec3 v = value(p);
-    for (int c = 0; c < 3; ++c) {
-      result.data[static_cast<size_t>(p) * 3 + static_cast<size_t>(c)] = static_cast<float>(v[c]);
-    }
-  }
+  fill(result, 0, film_.pixels(), value);
   return result;
 }
 
@@ -104,6 +112,17 @@ dvec3 Developer::variance_pixel(int p) const {
 
 Image Developer::picture() const {
   return image([this](int p) { return pixel(p); });
+}
+
+Image Developer::picture(WorkerPool& pool) const {
+  const ivec2 size = film_.settings().size;
+  Image result(size.x, size.y, 3);
+  const int strips = (film_.pixels() + strip - 1) / strip;
+  pool.run(strips, [&](int unit, int) {
+    const int begin = unit * strip, end = std::min(begin + strip, film_.pixels());
+    fill(result, begin, end, [this](int p) { return pixel(p); });
+  });
+  return result;
 }
 
 Image Developer::half(int which) const {

@@ -8,6 +8,7 @@
 #include "core/image/image.h"
 #include "core/render/error_estimate.h"
 #include "core/render/film.h"
+#include "core/render/worker_pool.h"
 
 namespace pssmlt {
 
@@ -37,6 +38,8 @@ class Developer {
   // picture_scale: factor from what the film holds to the picture.
   Developer(const Film& film, std::vector<LayerScales> layers, double picture_scale);
   Image picture() const;
+  // The same bits, by the pool's threads.
+  Image picture(WorkerPool& pool) const;
   // Empty image if the half has nothing yet.
   Image half(int which) const;
   // Variance of the picture per pixel and channel, from the difference of the halves.
@@ -47,6 +50,8 @@ class Developer {
  private:
   template <typename Value>
   Image image(const Value& value) const;
+  template <typename Value>
+  void fill(Image& image, int begin, int end, const Value& value) const;
   dvec3 pixel(int p) const;
   dvec3 half_pixel(int p, int layer, int which) const;
   dvec3 variance_pixel(int p) const;

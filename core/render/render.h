@@ -61,10 +61,22 @@ struct RenderResult {
   nlohmann::json statistics;
 };
 
+// What somebody who watches is shown between two rounds.
+struct Preview {
+  Image image;
+  double seconds = 0.0;   // as in RenderResult
+  double samples = 0.0;   // of all layers
+  nlohmann::json layers;  // "layers" of the statistics
+};
+
 struct RenderCallbacks {
   // Called on the thread that called render(), at most ten times a second.
   std::function<void(const Progress&)> progress;
   std::function<void(const RenderResult&)> snapshot;
+  // Both or neither, on the same thread, between rounds: whether anybody would look at a preview
+  // now, and the preview. It comes so seldom that previews cost about a hundredth of the time.
+  std::function<bool()> wants_preview;
+  std::function<void(Preview)> preview;
   // When it becomes true (signal handlers), the round is finished and the result returned.
   const std::atomic<bool>* stop = nullptr;
 };

@@ -10,6 +10,10 @@ constexpr double progress_interval = 0.1;  // [s]
 // An error estimate is made when it costs less than 1/50 of the time since the last one.
 constexpr double error_time_factor = 50.0;
 constexpr double least_error_interval = 0.5;  // [s]
+// A preview costs less than 1/100 of the time since the last one, all that its receiver does on
+// this thread included.
+constexpr double preview_time_factor = 100.0;
+constexpr double least_preview_interval = 0.5;  // [s]
 
 FilmSettings film_settings(const BuiltScene& scene, const RenderSettings& settings) {
   FilmSettings film;
@@ -251,8 +255,24 @@ void Session::refresh_error() {
   next_error_ = elapsed() + std::max(least_error_interval, error_time_factor * cost);
 }
 
+void Session::show_preview() {
+  if (!callbacks_.wants_preview || elapsed() < next_preview_ || !callbacks_.wants_preview()) return;
+  const Clock::time_point start = Clock::now();
+  Preview preview;
+  preview.image = developer().picture(pool_);
+  preview.seconds = elapsed();
+  for (const LayerState& l : layers_) {
+    preview.samples += l.samples;
+    preview.layers.push_back(layer_statistics(l));
+  }
+  callbacks_.preview(std::move(preview));
+  const double cost = std::chrono::duration<double>(Clock::now() - start).count();
+  next_preview_ = elapsed() + std::max(least_preview_interval, preview_time_factor * cost);
+}
+
 void Session::after_round() {
   if (!every_layer_has_a_round()) return;
+  show_preview();
   if (callbacks_.progress && elapsed() >= next_error_) refresh_error();
   const auto& times = settings_.snapshot_seconds;
   if (callbacks_.snapshot && next_snapshot_ < times.size() && elapsed() >= times[next_snapshot_]) {

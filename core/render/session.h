@@ -65,6 +65,7 @@ class Session {
   bool interrupted() const;
   double elapsed() const;
   void after_round();
+  void show_preview();
   void report_progress(double unfinished_samples);
   double fraction_done(double samples) const;
   void refresh_error();
@@ -95,6 +96,7 @@ class Session {
   RenderPhase phase_ = RenderPhase::prepare;
   double round_seconds_ = 0.0;                                             // of the last round [s]
   double next_progress_ = 0.0, next_checkpoint_ = 0.0, next_error_ = 0.0;  // [s] of elapsed()
+  double next_preview_ = 0.0;                                              // the same
   double checkpoint_cost_ = 0.0;  // wall time spent writing checkpoints [s]
   size_t next_snapshot_ = 0;
   double samples_now_ = 0.0;  // made by the units of this round so far, for progress

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/color/color_warnings.h"
+#include "core/path/path_expression.h"
 #include "core/plugin/registry.h"
 #include "core/scene/accel.h"
 #include "core/scene/builder_film.h"
@@ -306,10 +307,6 @@ void SceneBuilder::finish_lights() {
     lights.push_back(light.get());
   }
   scene_->light_table_ = LightTable(lights);
-  for (const auto& primitive : scene_->primitives_) {
-    const auto found = std::ranges::find(lights, primitive->light);
-    if (primitive->light) primitive->light_index = static_cast<int>(found - lights.begin());
-  }
   // Mean radiance if the light filled a diffuse enclosure of the scene's size.
   const double radius = static_cast<double>(bounds.radius);
   const double radiance = power / (4.0 * sqr(std::numbers::pi * radius));
@@ -342,11 +339,23 @@ void SceneBuilder::finish_features() {
 void SceneBuilder::finish_hashes(const std::string& settings) {
   built_.scene_hash = description_.hash[0] ^ mix_bits(description_.hash[1]);
   const RasterFrame& r = scene_->frame_;
+  const std::string raster =
+      fmt::format("{} {} {} {} {} {} {}", r.resolution.x, r.resolution.y, r.crop_min.x,
+                  r.crop_min.y, r.crop_max.x, r.crop_max.y, built_.max_component);
   std::array<uint64_t, 2> state{};
-  hash_text(state, settings + fmt::format("{} {} {} {} {} {} {}", r.resolution.x, r.resolution.y,
-                                          r.crop_min.x, r.crop_min.y, r.crop_max.x, r.crop_max.y,
-                                          built_.max_component));
+  hash_text(state, settings + raster);
   built_.settings_hash = state[0] ^ mix_bits(state[1]);
+  std::string shown = fmt::format("{:016x} {}\n", built_.scene_hash, raster);
+  for (const Layer& layer : built_.layers) {
+    const PathLimits& limits = layer.integrator->limits();
+    shown += fmt::format("{} {} {}\n", limits.min_bounces, limits.max_bounces, limits.paths.text());
+  }
+  for (const std::string& set : options_.set) {
+    if (!set.starts_with("integrator.") && !set.starts_with("sampler.")) shown += set + "\n";
+  }
+  state = {};
+  hash_text(state, shown);
+  built_.picture_hash = state[0] ^ mix_bits(state[1]);
 }
 
 BuiltScene SceneBuilder::build() {

@@ -25,7 +25,6 @@ struct Primitive {
   std::shared_ptr<const Material> material;     // never null
   std::shared_ptr<const Texture<float>> alpha;  // null: opaque
   const Light* light = nullptr;                 // emission of this surface, or null
-  int light_index = -1;                         // in Scene::lights()
   std::string name;                             // for messages: `sphere "file:line"`
 };
 

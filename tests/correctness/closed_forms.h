@@ -30,6 +30,7 @@ PixelFilter "box"
 LookAt {} 0 {}  0 0 0  0 1 0
 Camera "orthographic" "float screenwindow" [ {} ]
 Sampler "pssmlt" "integer bootstrapsamples" 4096 "integer chains" 32
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .8
 Integrator "path" "integer maxdepth" {}
 WorldBegin
@@ -155,6 +156,7 @@ PixelFilter "box"
 LookAt .3 -.2 .1  -.4 .1 1  0 1 0
 Camera "perspective" "float fov" 60
 Sampler "pssmlt" "integer bootstrapsamples" 4096 "integer chains" 32
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .8
 Integrator "path" "integer maxdepth" {}
 WorldBegin

@@ -43,6 +43,7 @@ AttributeEnd
 
 const std::string chains = R"(
 Sampler "pssmlt" "integer bootstrapsamples" 16384 "integer chains" 32
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .5
 )";
 

@@ -39,6 +39,7 @@ PixelFilter "box"
 LookAt 0 1 -3.6  0 1 0  0 1 0
 Camera "perspective" "float fov" 36 "float lensradius" .12 "float focaldistance" 3.2
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -72,6 +73,7 @@ PixelFilter "triangle" "float xradius" 1.5 "float yradius" 1.5
 LookAt 0 3.2 -2.6  0 .2 0  0 1 0
 Camera "perspective" "float fov" 38
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .8
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -110,6 +112,7 @@ PixelFilter "mitchell"
 LookAt 0 1.6 -4  0 .6 0  0 1 0
 Camera "perspective" "float fov" 34
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .8
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -162,6 +165,7 @@ PixelFilter "box"
 LookAt .3 1.2 -3  0 .9 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -1.2 1.2 -1 1 ]
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -194,6 +198,7 @@ PixelFilter "gaussian"
 LookAt 0 1 -3.4  0 .9 0  0 1 0
 Camera "perspective" "float fov" 36 "float lensradius" .05 "float focaldistance" 3.4
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 4
 WorldBegin
@@ -235,6 +240,7 @@ PixelFilter "sinc" "float xradius" 2 "float yradius" 2
 LookAt 0 1 -2.9  .1 1 0  0 1 0
 Camera "perspective" "float fov" 45
 Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
+  "float filmprobability" 0.1 "float streamprobability" 0.2
   "float largestepprobability" .5
 Integrator "path" "integer maxdepth" 5
 WorldBegin

@@ -1,6 +1,7 @@
 // The sampler "pssmlt" over integrators in closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -40,9 +41,15 @@ double peaked_pixel(int p) {
   return (x < 6 ? 1.5 + y : 0.0) + 1.0;
 }
 
+// With steps of every kind, unless `more` says otherwise.
 ParameterSet settings(const ParameterSet& more = {}) {
   ParameterSet set = {test::integer("bootstrapsamples", 16000), test::integer("chains", 64)};
   set.insert(set.end(), more.begin(), more.end());
+  for (const auto& [name, value] :
+       {std::pair{"filmprobability", 0.1f}, {"streamprobability", 0.2f}}) {
+    const auto same = [&](const auto& parameter) { return parameter.name == name; };
+    if (std::ranges::none_of(set, same)) set.push_back(test::number(name, value));
+  }
   return set;
 }
 

@@ -210,6 +210,31 @@ TEST(Render, SnapshotsComeOnce) {
   EXPECT_GE(times[0], 0.05);
 }
 
+// Previews are of whole rounds and change nothing, wanted or not.
+TEST(Render, PreviewsChangeNothing) {
+  for (const char* sampler : {"sobol", "pssmlt"}) {
+    const RenderSettings settings = settings_for(500);  // several rounds of chains
+    const RenderResult plain = render(build_small("path", sampler), settings);
+    int asked = 0, given = 0;
+    double samples = 0.0;
+    RenderCallbacks callbacks;
+    callbacks.wants_preview = [&] { return ++asked > 1; };
+    callbacks.preview = [&](const Preview& p) {
+      ++given;
+      EXPECT_EQ(p.image.data.size(), plain.image.data.size());
+      EXPECT_GT(p.samples, samples);
+      samples = p.samples;
+      EXPECT_EQ(p.layers.size(), 1u);
+      EXPECT_TRUE(p.layers[0].contains("report"));
+    };
+    const RenderResult watched = render(build_small("path", sampler), settings, callbacks);
+    EXPECT_GE(asked, 2) << sampler;
+    EXPECT_GE(given, 1) << sampler;
+    EXPECT_LT(given, asked);
+    EXPECT_EQ(watched.image.data, plain.image.data) << sampler;
+  }
+}
+
 TEST(Render, RejectedSamplesAreCounted) {
   const auto bad = [](PrimarySample& u, Splats& out) {
     const dvec2 at = u.raster();
