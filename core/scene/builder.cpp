@@ -339,14 +339,20 @@ void SceneBuilder::finish_features() {
   if (scene_->primitives_.empty()) built_.log.push_back("warning: the scene has no shapes");
 }
 
-void SceneBuilder::finish_hashes(const std::string& settings) {
-  built_.scene_hash = description_.hash[0] ^ mix_bits(description_.hash[1]);
-  const RasterFrame& r = scene_->frame_;
+// `settings`: of the layers.
+static uint64_t hash_settings(std::string settings, const BuildOptions& options,
+                              const RasterFrame& r, float max_component) {
+  for (const std::string& assignment : options.set) settings += assignment + "\n";
   std::array<uint64_t, 2> state{};
   hash_text(state, settings + fmt::format("{} {} {} {} {} {} {}", r.resolution.x, r.resolution.y,
                                           r.crop_min.x, r.crop_min.y, r.crop_max.x, r.crop_max.y,
-                                          built_.max_component));
-  built_.settings_hash = state[0] ^ mix_bits(state[1]);
+                                          max_component));
+  return state[0] ^ mix_bits(state[1]);
+}
+
+void SceneBuilder::finish_hashes(const std::string& settings) {
+  built_.scene_hash = description_.hash[0] ^ mix_bits(description_.hash[1]);
+  built_.settings_hash = hash_settings(settings, options_, scene_->frame_, built_.max_component);
 }
 
 BuiltScene SceneBuilder::build() {
@@ -356,7 +362,6 @@ BuiltScene SceneBuilder::build() {
   build_raster();
   std::string settings;
   built_.layers = build_layers(description_, options_, settings, built_.log);
-  for (const std::string& assignment : options_.set) settings += assignment + "\n";
   build_camera();
   build_lights();
   build_shapes();
@@ -372,6 +377,18 @@ BuiltScene SceneBuilder::build() {
 
 BuiltScene build_scene(const SceneDescription& description, const BuildOptions& options) {
   return SceneBuilder(description, options).build();
+}
+
+BuiltScene with_layers(const BuiltScene& built, const SceneDescription& description,
+                       const BuildOptions& options) {
+  BuiltScene other = built;
+  other.log.clear();
+  std::string settings;
+  other.layers = build_layers(description, options, settings, other.log);
+  other.settings_hash =
+      hash_settings(settings, options, built.raster_map->frame(), built.max_component);
+  for (const Layer& layer : other.layers) layer.integrator->prepare(*built.scene);
+  return other;
 }
 
 }  // namespace pssmlt
