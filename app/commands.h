@@ -13,6 +13,8 @@ using Arguments = std::vector<std::string>;
 int run_render(const Arguments& arguments);
 int run_plugins(const Arguments& arguments);
 int run_info(const Arguments& arguments);
+int run_error(const Arguments& arguments);
+int run_merge(const Arguments& arguments);
 int run_version();
 
 }  // namespace pssmlt

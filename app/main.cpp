@@ -13,6 +13,8 @@ using pssmlt::Arguments;
 constexpr const char* usage =
     "usage: pssmlt [render] SCENE [options]     render a scene (pssmlt render --help)\n"
     "       pssmlt info SCENE                   what a scene contains\n"
+    "       pssmlt error PICTURE REFERENCE      how far a picture is from a reference\n"
+    "       pssmlt merge A B ... -o C           average independent renders of one picture\n"
     "       pssmlt plugins [KIND [NAME]]        reference of the plugins' parameters\n"
     "       pssmlt --version                    versions and processor features\n";
 
@@ -28,7 +30,11 @@ int run(Arguments arguments) {
   }
   if (first == "--version" || first == "version") return pssmlt::run_version();
   static const std::map<std::string, int (*)(const Arguments&)> commands = {
-      {"render", pssmlt::run_render}, {"plugins", pssmlt::run_plugins}, {"info", pssmlt::run_info}};
+      {"render", pssmlt::run_render},
+      {"plugins", pssmlt::run_plugins},
+      {"info", pssmlt::run_info},
+      {"error", pssmlt::run_error},
+      {"merge", pssmlt::run_merge}};
   const auto command = commands.find(first);
   if (command == commands.end()) return pssmlt::run_render(arguments);
   arguments.erase(arguments.begin());

@@ -9,6 +9,7 @@
 
 #include "app/progress.h"
 #include "app/render_options.h"
+#include "app/render_record.h"
 #include "app/summary.h"
 #include "core/base/log.h"
 #include "core/render/auxiliary.h"
@@ -81,24 +82,7 @@ BuiltScene load(RenderOptions& o) {
 }
 
 ImageMetadata metadata(const RenderOptions& o, const BuiltScene& scene, const RenderResult& r) {
-  std::string integrators, samplers;
-  for (const Layer& layer : scene.layers) {
-    integrators += (integrators.empty() ? "" : " + ") + layer.integrator_name;
-    samplers += (samplers.empty() ? "" : " + ") + layer.sampler_name;
-  }
-  const ErrorEstimate& e = r.error;
-  return {{"software", "pssmlt " PSSMLT_VERSION},
-          {"pssmlt:scene", o.scene},
-          {"pssmlt:scene_hash", fmt::format("{:016x}", scene.scene_hash)},
-          {"pssmlt:settings_hash", fmt::format("{:016x}", scene.settings_hash)},
-          {"pssmlt:integrator", integrators},
-          {"pssmlt:sampler", samplers},
-          {"pssmlt:seed", std::to_string(o.render.seed)},
-          {"pssmlt:samples", fmt::format("{:.0f}", r.samples)},
-          {"pssmlt:seconds", fmt::format("{:.3f}", r.seconds)},
-          {"pssmlt:error",
-           e.known ? fmt::format("relMSE {:.6g} ({:.6g} to {:.6g})", e.relative_mse, e.low, e.high)
-                   : "unknown"}};
+  return to_metadata(make_record(o.scene, scene, o.render.seed, r));
 }
 
 // The images beside the picture that --aux asks for.

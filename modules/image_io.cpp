@@ -64,6 +64,11 @@ void read(const std::string& path, ImageFile& out) {
   out.channel_names = spec.channelnames;
   out.integer = is_integer(static_cast<OIIO::TypeDesc::BASETYPE>(spec.format.basetype));
   const size_t count = spec.image_pixels() * static_cast<size_t>(spec.nchannels);
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+    if (attribute.type() == OIIO::TypeString) {
+      out.metadata.emplace_back(attribute.name().string(), attribute.get_string());
+    }
+  }
   bool done = false;
   if (spec.format == OIIO::TypeUInt8) {
     out.bytes.resize(count);

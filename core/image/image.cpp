@@ -118,7 +118,10 @@ ImageFile read_image_file(const std::string& path) {
 }
 
 Image read_image(const std::string& path, const std::string& encoding) {
-  const ImageFile file = read_image_file(path);
+  return decode_image(read_image_file(path), encoding);
+}
+
+Image decode_image(const ImageFile& file, const std::string& encoding) {
   Encoding from = file.integer ? Encoding::srgb() : Encoding::linear();
   if (!encoding.empty()) from = Encoding::parse(encoding);
   Image image(file.width, file.height, file.channels);

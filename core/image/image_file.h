@@ -15,12 +15,15 @@ struct ImageFile {
   bool integer = false;        // stored as integers: encoded, [0, 1] stands for the full range
   std::vector<uint8_t> bytes;  // filled if stored with 8 bits, else
   std::vector<float> floats;   // filled
+  ImageMetadata metadata;      // attributes that are text, in the file's order (EXR, PNG)
   // Index of a channel by its name, or -1.
   int find(const std::string& name) const;
 };
 
 // As stored. Throws Error with the file and the reason: missing, not an image, truncated.
 ImageFile read_image_file(const std::string& path);
+// As floats, decoded as read_image() says.
+Image decode_image(const ImageFile& file, const std::string& encoding);
 
 // Module "image_io".
 inline constexpr const char* read_symbol = "pssmlt_read_image";

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/color/color_warnings.h"
+#include "core/path/path_expression.h"
 #include "core/plugin/registry.h"
 #include "core/scene/accel.h"
 #include "core/scene/builder_film.h"
@@ -59,7 +60,6 @@ class SceneBuilder {
   void count(const Primitive& primitive);
   void finish_lights();
   void finish_features();
-  void finish_hashes(const std::string& settings);
 
   const SceneDescription& description_;
   const BuildOptions& options_;
@@ -339,20 +339,29 @@ void SceneBuilder::finish_features() {
   if (scene_->primitives_.empty()) built_.log.push_back("warning: the scene has no shapes");
 }
 
-// `settings`: of the layers.
-static uint64_t hash_settings(std::string settings, const BuildOptions& options,
-                              const RasterFrame& r, float max_component) {
+// `settings`: of the layers, as build_layers() collects them.
+static void set_hashes(BuiltScene& built, const SceneDescription& description,
+                       const BuildOptions& options, std::string settings) {
+  built.scene_hash = description.hash[0] ^ mix_bits(description.hash[1]);
+  const RasterFrame& r = built.raster_map->frame();
+  const std::string raster =
+      fmt::format("{} {} {} {} {} {} {}", r.resolution.x, r.resolution.y, r.crop_min.x,
+                  r.crop_min.y, r.crop_max.x, r.crop_max.y, built.max_component);
   for (const std::string& assignment : options.set) settings += assignment + "\n";
   std::array<uint64_t, 2> state{};
-  hash_text(state, settings + fmt::format("{} {} {} {} {} {} {}", r.resolution.x, r.resolution.y,
-                                          r.crop_min.x, r.crop_min.y, r.crop_max.x, r.crop_max.y,
-                                          max_component));
-  return state[0] ^ mix_bits(state[1]);
-}
-
-void SceneBuilder::finish_hashes(const std::string& settings) {
-  built_.scene_hash = description_.hash[0] ^ mix_bits(description_.hash[1]);
-  built_.settings_hash = hash_settings(settings, options_, scene_->frame_, built_.max_component);
+  hash_text(state, settings + raster);
+  built.settings_hash = state[0] ^ mix_bits(state[1]);
+  std::string shown = fmt::format("{:016x} {}\n", built.scene_hash, raster);
+  for (const Layer& layer : built.layers) {
+    const PathLimits& limits = layer.integrator->limits();
+    shown += fmt::format("{} {} {}\n", limits.min_bounces, limits.max_bounces, limits.paths.text());
+  }
+  for (const std::string& set : options.set) {
+    if (!set.starts_with("integrator.") && !set.starts_with("sampler.")) shown += set + "\n";
+  }
+  state = {};
+  hash_text(state, shown);
+  built.picture_hash = state[0] ^ mix_bits(state[1]);
 }
 
 BuiltScene SceneBuilder::build() {
@@ -367,7 +376,7 @@ BuiltScene SceneBuilder::build() {
   build_shapes();
   finish_lights();
   finish_features();
-  finish_hashes(settings);
+  set_hashes(built_, description_, options_, settings);
   for (std::string& line : take_color_warnings()) built_.log.push_back(std::move(line));
   for (const Layer& layer : built_.layers) layer.integrator->prepare(*scene_);
   scene_->features_.load_seconds = seconds_since(start) - scene_->features_.accel_seconds;
@@ -385,8 +394,7 @@ BuiltScene with_layers(const BuiltScene& built, const SceneDescription& descript
   other.log.clear();
   std::string settings;
   other.layers = build_layers(description, options, settings, other.log);
-  other.settings_hash =
-      hash_settings(settings, options, built.raster_map->frame(), built.max_component);
+  set_hashes(other, description, options, settings);
   for (const Layer& layer : other.layers) layer.integrator->prepare(*built.scene);
   return other;
 }

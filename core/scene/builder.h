@@ -62,6 +62,10 @@ struct BuiltScene {
   std::optional<uint64_t> seed;  // Option "seed" of the scene
   uint64_t scene_hash = 0;       // of the scene's text
   uint64_t settings_hash = 0;    // of all else that decides the picture: names, parameters, size
+  // Of what the picture shows, whatever technique computes it: the scene's text, size and window,
+  // the range of paths of each layer, what was set of anything but integrators and samplers.
+  // Renders that agree in it may be averaged.
+  uint64_t picture_hash = 0;
   std::vector<std::string> log;  // lines for the user: translated names, what is left out
 };
 

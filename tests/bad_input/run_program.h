@@ -5,24 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace pssmlt::test {
 
 namespace fs = std::filesystem;
-
-// A fresh folder that goes away with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-  // Folders in `name` are made.
-  void write(const std::string& name, const std::string& bytes) const;
-
- private:
-  fs::path path_;
-};
 
 struct ProgramResult {
   int exit_code = -1;  // 128 + the signal's number if one ended it; 124: it hung

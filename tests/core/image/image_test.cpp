@@ -73,6 +73,9 @@ TEST_F(ImageTest, ExrKeepsFloatsLayersAndMetadata) {
   std::ifstream file(path("a.exr"), std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
   EXPECT_NE(bytes.find("pssmlt:seed"), std::string::npos);
+  const ImageMetadata metadata = read_image_file(path("a.exr")).metadata;
+  EXPECT_NE(std::ranges::find(metadata, std::pair<std::string, std::string>("pssmlt:seed", "42")),
+            metadata.end());
   EXPECT_EQ(files(), 1u);
 }
 
