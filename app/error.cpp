@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -20,9 +22,12 @@ struct ErrorOptions {
   int threads = 0;
 };
 
+// Leaves things as they are.
 void check_json_writable(const std::string& path) {
   if (path.empty()) return;
+  const bool fresh = !std::filesystem::exists(path);
   if (!std::ofstream(path, std::ios::app)) throw Error("cannot write \"" + path + "\"");
+  if (fresh) std::filesystem::remove(path);
 }
 
 // False: help was printed.
@@ -50,13 +55,21 @@ bool parse(const Arguments& arguments, ErrorOptions& o) {
   return true;
 }
 
+// Positions in metrics() of what was asked for.
+std::vector<size_t> shown(const ErrorOptions& o) {
+  std::vector<size_t> result;
+  for (size_t m = 0; m < metrics().size(); ++m) {
+    const auto asked = std::ranges::find(o.metrics, metrics()[m].id);
+    if (o.metrics.empty() || asked != o.metrics.end()) result.push_back(m);
+  }
+  return result;
+}
+
 void print(const ErrorOptions& o, const Image& reference, const Comparison& c) {
   std::string text = fmt::format("{} against {}, {} x {} pixels\n\n", o.picture, o.reference,
                                  reference.width, reference.height);
-  for (size_t m = 0; m < metrics().size(); ++m) {
+  for (const size_t m : shown(o)) {
     const Metric& metric = metrics()[m];
-    const auto asked = std::ranges::find(o.metrics, metric.id);
-    if (!o.metrics.empty() && asked == o.metrics.end()) continue;
     text += fmt::format("{:<16} {:<12.6g} {} ({})\n", metric.name, c.values[m], metric.formula,
                         metric.unit_note);
   }
@@ -83,10 +96,8 @@ nlohmann::json to_json(const ErrorOptions& o, const Image& reference, const Comp
   j["reference"] = o.reference;
   j["width"] = reference.width;
   j["height"] = reference.height;
-  for (size_t m = 0; m < metrics().size(); ++m) {
+  for (const size_t m : shown(o)) {
     const Metric& metric = metrics()[m];
-    const auto asked = std::ranges::find(o.metrics, metric.id);
-    if (!o.metrics.empty() && asked == o.metrics.end()) continue;
     j["metrics"].push_back({{"id", metric.id},
                             {"name", metric.name},
                             {"formula", metric.formula},

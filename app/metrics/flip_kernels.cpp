@@ -65,16 +65,16 @@ std::vector<GaussianTerm> gaussian_terms(const Sensitivity& s, double pixels_per
   };
   std::vector<Term> terms;
   double total = 0.0;
-  for (const auto& [a, b] : {std::pair{s.a1, s.b1}, std::pair{s.a2, s.b2}}) {
-    if (a == 0.0) continue;
-    terms.push_back({tabulate(radius,
-                              [&](double k) {
-                                const double degrees = k / pixels_per_degree;
-                                return std::exp(-square(std::numbers::pi * degrees) / b);
-                              }),
-                     a * std::sqrt(std::numbers::pi / b)});
+  const auto add = [&](double a, double b) {
+    if (a == 0.0) return;
+    const auto bell = [&](double k) {
+      return std::exp(-square(std::numbers::pi * k / pixels_per_degree) / b);
+    };
+    terms.push_back({tabulate(radius, bell), a * std::sqrt(std::numbers::pi / b)});
     total += terms.back().weight * square(sum_of(terms.back().values));
-  }
+  };
+  add(s.a1, s.b1);
+  add(s.a2, s.b2);
   std::vector<GaussianTerm> result;
   for (const Term& t : terms) {
     result.push_back({to_kernel(t.values, t.weight / total), to_kernel(t.values, 1.0)});

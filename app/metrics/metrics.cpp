@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "app/metrics/flip.h"
 #include "app/metrics/pixel_errors.h"
@@ -18,15 +19,20 @@ namespace {
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 // FLIP filters neighbourhoods: a pixel that does not count shows the same colour in both.
-ErrorMap flip_errors(const PicturePair& pair, WorkerPool& pool) {
-  std::vector<Rgb> picture = pair.picture, reference = pair.reference;
+void fill_in(PicturePair& pair) {
   for (size_t i = 0; i < pair.pixels(); ++i) {
     if (pair.counts[i]) continue;
-    if (!is_finite(reference[i])) reference[i] = Rgb(0.f);
-    picture[i] = reference[i];
+    if (!is_finite(pair.reference[i])) pair.reference[i] = Rgb(0.f);
+    pair.picture[i] = pair.reference[i];
   }
-  const Plane error = flip::radiance_error({pair.width, pair.height, picture},
-                                           {pair.width, pair.height, reference}, pool);
+}
+
+ErrorMap flip_errors(const PicturePair& pair, WorkerPool& pool) {
+  std::optional<PicturePair> filled;
+  if (pair.non_finite > 0) fill_in(filled.emplace(pair));
+  const PicturePair& p = filled ? *filled : pair;
+  const Plane error =
+      flip::radiance_error({p.width, p.height, p.picture}, {p.width, p.height, p.reference}, pool);
   ErrorMap map(error.values.begin(), error.values.end());
   for (size_t i = 0; i < map.size(); ++i) {
     if (!pair.counts[i]) map[i] = nan_value;

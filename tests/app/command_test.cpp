@@ -121,7 +121,11 @@ TEST_F(Command, BadUsageIsCode2) {
       {scene_, "--replay", "sobol:1:2"},
       {"plugins", "nosuchkind"},
       {"plugins", "integrator", "nosuch"},
-      {"info", "no-such-scene.txt"}};
+      {"info", "no-such-scene.txt"},
+      {"error", "no-such.exr", "no-such.exr"},
+      {"error", "no-such.exr"},
+      {"merge", "no-such.exr", "no-such.exr", "-o", in("a.pfm")},
+      {"merge", "no-such.exr", "no-such.exr"}};
   for (const auto& arguments : cases) {
     std::string line;
     for (const std::string& a : arguments) line += a + " ";

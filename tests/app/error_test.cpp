@@ -102,7 +102,8 @@ TEST_F(ErrorCommand, LayersDoNotCount) {
   write_image(path("a.exr"), layered, {}, {});
   write_image(path("b.exr"), plain, {}, {});
   run({path("a.exr"), path("b.exr"), "--json", path("e.json")});
-  for (const auto& m : numbers("e.json")["metrics"]) EXPECT_EQ(m["value"].get<double>(), 0.0);
+  const nlohmann::json j = numbers("e.json");
+  for (const auto& m : j["metrics"]) EXPECT_EQ(m["value"].get<double>(), 0.0);
 }
 
 TEST_F(ErrorCommand, MapsAverageToTheMetric) {
@@ -154,7 +155,7 @@ TEST_F(ErrorCommand, RefusesWithTheFilesNames) {
   std::filesystem::resize_file(path("cut.exr"), std::filesystem::file_size(path("cut.exr")) / 2);
   folder_.write("text.exr", "this is not an image");
   folder_.write("empty.exr", "");
-  for (const std::string& name : {"cut.exr", "text.exr", "empty.exr", "missing.exr", ""}) {
+  for (const char* const name : {"cut.exr", "text.exr", "empty.exr", "missing.exr", ""}) {
     const std::string said = refusal({path("a.exr"), path(name)});
     EXPECT_NE(said.find(path(name)), std::string::npos) << name << ": " << said;
   }

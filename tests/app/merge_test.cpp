@@ -25,16 +25,17 @@ class Merge : public testing::Test {
   ~Merge() override { set_log_level(LogLevel::normal); }
 
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-  // The Cornell box, small; the integrator's and sampler's names, seed, samples a pixel.
+  // The Cornell box, small, by path tracing.
   std::string render(const std::string& name, const std::string& seed, const std::string& spp,
-                     const Arguments& more = {}) const {
+                     const Arguments& more = {}, const std::string& sampler = "independent",
+                     const std::string& size = "32x32") const {
     Arguments arguments = {std::string(PSSMLT_SOURCE_DIR) + "/scenes/cornell-box.txt",
                            "--size",
-                           std::to_string(edge) + "x" + std::to_string(edge),
+                           size,
                            "--integrator",
                            "path",
                            "--sampler",
-                           "independent",
+                           sampler,
                            "--seed",
                            seed,
                            "--spp",
@@ -122,8 +123,7 @@ TEST_F(Merge, MetadataAddUpAndMergesOfMergesAreMerges) {
 }
 
 TEST_F(Merge, TechniquesCountByTheirErrors) {
-  const std::string a = render("a.exr", "1", "16"),
-                    b = render("b.exr", "2", "64", {"--sampler", "sobol"});
+  const std::string a = render("a.exr", "1", "16"), b = render("b.exr", "2", "64", {}, "sobol");
   const RenderRecord first = record(a), second = record(b);
   ASSERT_TRUE(first.error && second.error);
   const std::string merged = merge("c.exr", {a, b});
@@ -164,7 +164,7 @@ TEST_F(Merge, RefusesWhatMustNotBeAveraged) {
   EXPECT_NE(refusal({a, a}).find("not independent"), std::string::npos);
   // More samples of the same seed begin with the same ones.
   EXPECT_NE(refusal({a, render("b.exr", "1", "8")}).find("not independent"), std::string::npos);
-  EXPECT_NE(refusal({a, render("b.exr", "2", "4", {"--size", "31x32"})}).find("31 x 32"),
+  EXPECT_NE(refusal({a, render("b.exr", "2", "4", {}, "sobol", "31x32")}).find("31 x 32"),
             std::string::npos);
   EXPECT_NE(refusal({a, render("b.exr", "2", "4", {"--set", "integrator.maxdepth=2"})})
                 .find("do not show the same"),

@@ -264,7 +264,7 @@ TEST_F(Flip, ExposuresOneStopApart) {
   EXPECT_NEAR(exposures_for(Colours{Rgb(1.f), Rgb(3.f)}).stop,
               exposures_for(Colours{Rgb(2.f)}).stop, 1e-6);
   const Exposures dark =
-      exposures_for(Colours{Rgb(0.f), Rgb(0.f), Rgb(-1.f), Rgb(1.f), Rgb(2.f), Rgb(4.f)});
+      exposures_for(Colours{Rgb(0.f), Rgb(0.f), Rgb(0.f), Rgb(-1.f), Rgb(1.f), Rgb(2.f), Rgb(4.f)});
   EXPECT_NEAR(dark.stop - dark.start, 1.0, 1e-6);
 }
 

@@ -151,6 +151,12 @@ TEST(Metrics, NothingCountsNothingIsKnown) {
   EXPECT_TRUE(std::isnan(c.mean_bias));
 }
 
+TEST(Metrics, NoPixels) {
+  for (const double v : compare_images(Image(0, 0, 3), Image(0, 0, 3)).values) {
+    EXPECT_TRUE(std::isnan(v));
+  }
+}
+
 TEST(Metrics, BlackReference) {
   const Image black = uniform(5, 4, Rgb(0.f));
   for (const double v : compare_images(black, black).values) EXPECT_EQ(v, 0.0);
