@@ -40,8 +40,8 @@ std::vector<float> rgb_values(const Image& image) {
   return values;
 }
 
-// G, R - G, B - G (modulo 2^16, or 2^8): noise is much the same in all channels, which saves a
-// quarter. Prediction from neighbours, on top of it, gains nothing on renders that have noise.
+// G, R - G, B - G (modulo 2^16, or 2^8): noise is much the same in all channels, which saves 15 to
+// 30 %. Prediction from neighbours on top of it makes noisy renders larger.
 std::array<std::vector<uint16_t>, 3> planes_of(const std::vector<uint16_t>& codes) {
   std::array<std::vector<uint16_t>, 3> planes;
   for (auto& plane : planes) plane.resize(codes.size() / 3);
