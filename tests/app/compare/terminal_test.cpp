@@ -79,7 +79,9 @@ TEST(Tables, SayWhatWasFound) {
   EXPECT_EQ(text.find("more than a quarter"), std::string::npos) << text;
   SceneReport near = scene("room", 0.01);
   EXPECT_NE(scene_table(options(), near).find("more than a quarter"), std::string::npos);
-  near.reference.agreement = Agreement{.biased = true, .text = "a and b do not agree"};
+  near.reference.agreement.emplace();
+  near.reference.agreement->biased = true;
+  near.reference.agreement->text = "a and b do not agree";
   EXPECT_NE(scene_table(options(), near).find("BIAS: a and b"), std::string::npos);
 }
 
