@@ -181,7 +181,6 @@ void Compare::write(const std::string& why_partial) {
 }
 
 int Compare::run() {
-  catch_signals(stopping);
   for (size_t i = 0; i < o_.scenes.size() && !stopped(); ++i) compare_scene(static_cast<int>(i));
   std::string why;
   if (stopped()) {
@@ -210,6 +209,7 @@ int run_compare(const Arguments& arguments) {
                 : options->verbose ? LogLevel::verbose
                                    : LogLevel::normal);
   for (const std::string& note : options->notes) log_info(note);
+  catch_signals(compare::stopping);
   return compare::Compare(std::move(*options)).run();
 }
 

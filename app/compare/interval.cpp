@@ -20,8 +20,8 @@ Interval geometric_mean(std::span<const double> values) {
     if (!(v > 0.0) || !std::isfinite(v)) return {};
     mean += std::log(v) / n;
   }
+  if (values.size() == 1) return {.value = values[0], .low = {}, .high = {}};
   Interval result{.value = std::exp(mean), .low = {}, .high = {}};
-  if (values.size() < 2) return result;
   double squares = 0.0;
   for (const double v : values) squares += (std::log(v) - mean) * (std::log(v) - mean);
   const double half = student_95(n - 1.0) * std::sqrt(squares / (n - 1.0) / n);

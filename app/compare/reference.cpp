@@ -25,23 +25,28 @@ double mean(const Image& image) {
   return image.data.empty() ? 0.0 : sum / static_cast<double>(image.data.size());
 }
 
-// Estimated variance by which the techniques are weighed; nullopt if there is no estimate.
-Number variance_of(const Half& h) {
-  if (h.result.error.known) return h.result.error.relative_mse;
-  if (h.result.variance.data.empty()) return std::nullopt;
-  return mean(h.result.variance);
+// Relative variance of a technique's picture, b's included. `level`: the values that it is relative
+// to, the same for both techniques, since each one's own noise would flatter it. nullopt: too few
+// rounds to tell.
+Number relative_variance(const Half& h, const Image& level) {
+  const Image& variance = h.result.variance;
+  if (variance.data.empty()) return std::nullopt;
+  const double epsilon = relative_mse_epsilon * mean(level) * mean(level);
+  double sum = 0.0;
+  for (size_t i = 0; i < variance.data.size(); ++i) {
+    const double square = static_cast<double>(level.data[i]) * static_cast<double>(level.data[i]);
+    const double v = static_cast<double>(variance.data[i]) + h.blocks.common_variance * square;
+    if (square + epsilon > 0.0) sum += v / (square + epsilon);
+  }
+  return sum;
 }
 
 // Weight of the first.
 double weight_of_first(const Half& a, const Half& b) {
-  Number va = variance_of(a), vb = variance_of(b);
-  // Estimates of one kind only are compared.
-  if (a.result.error.known != b.result.error.known) {
-    va = a.result.variance.data.empty() ? Number() : mean(a.result.variance);
-    vb = b.result.variance.data.empty() ? Number() : mean(b.result.variance);
-  }
   const bool a_black = mean(a.result.image) == 0.0, b_black = mean(b.result.image) == 0.0;
   if (a_black != b_black) return a_black ? 0.0 : 1.0;
+  const Image level = mix(a.result.image, 0.5, b.result.image, 0.5);
+  const Number va = relative_variance(a, level), vb = relative_variance(b, level);
   if (!va || !vb || !(*va + *vb > 0.0)) return 0.5;
   return *vb / (*va + *vb);
 }
