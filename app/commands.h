@@ -11,6 +11,7 @@ namespace pssmlt {
 using Arguments = std::vector<std::string>;
 
 int run_render(const Arguments& arguments);
+int run_compare(const Arguments& arguments);
 int run_plugins(const Arguments& arguments);
 int run_info(const Arguments& arguments);
 int run_error(const Arguments& arguments);

@@ -12,6 +12,7 @@ using pssmlt::Arguments;
 
 constexpr const char* usage =
     "usage: pssmlt [render] SCENE [options]     render a scene (pssmlt render --help)\n"
+    "       pssmlt compare SCENE... [options]   error against run time of several techniques\n"
     "       pssmlt info SCENE                   what a scene contains\n"
     "       pssmlt error PICTURE REFERENCE      how far a picture is from a reference\n"
     "       pssmlt merge A B ... -o C           average independent renders of one picture\n"
@@ -31,6 +32,7 @@ int run(Arguments arguments) {
   if (first == "--version" || first == "version") return pssmlt::run_version();
   static const std::map<std::string, int (*)(const Arguments&)> commands = {
       {"render", pssmlt::run_render},
+      {"compare", pssmlt::run_compare},
       {"plugins", pssmlt::run_plugins},
       {"info", pssmlt::run_info},
       {"error", pssmlt::run_error},

@@ -1,6 +1,4 @@
 // pssmlt render: scene in, pictures out.
-#include <unistd.h>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +9,7 @@
 #include "app/progress.h"
 #include "app/render_options.h"
 #include "app/render_record.h"
+#include "app/signals.h"
 #include "app/summary.h"
 #include "core/base/log.h"
 #include "core/render/auxiliary.h"
@@ -21,27 +20,11 @@
 namespace pssmlt {
 namespace {
 
-constexpr int exit_done = 0, exit_failure = 1, exit_interrupted = 130;
+constexpr int exit_done = 0, exit_failure = 1;
 constexpr int traced_samples = 4;  // of --pixel, unless --spp says otherwise
 
-std::atomic<bool> stop_requested{false};
-
-// The first signal asks the session to stop after the round, the second ends the process.
-extern "C" void on_signal(int) {
-  if (stop_requested.exchange(true)) _exit(exit_interrupted);
-  static constexpr char text[] =
-      "\ninterrupted: finishing the round, then writing; again to leave at once without writing\n";
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
-}
-
-void catch_signals() {
-  struct sigaction action = {};
-  action.sa_handler = on_signal;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
+constexpr const char* stopping =
+    "\ninterrupted: finishing the round, then writing; again to leave at once without writing\n";
 
 bool wants(const RenderOptions& o, const std::string& auxiliary) {
   return std::find(o.auxiliary.begin(), o.auxiliary.end(), auxiliary) != o.auxiliary.end();
@@ -200,12 +183,12 @@ int run_render(const Arguments& arguments) {
   const BuiltScene scene = load(o);
   if (o.pixel || !o.replay.empty()) return inspect(o, scene);
   prepare_outputs(o, scene);
-  catch_signals();
+  catch_signals(stopping);
   RenderResult result;
   {
     ProgressDisplay display(!o.quiet);
     RenderCallbacks callbacks;
-    callbacks.stop = &stop_requested;
+    callbacks.stop = &stop_requested();
     callbacks.progress = [&display](const Progress& p) { display.show(p); };
     view.attach(callbacks);
     result = render(scene, o.render, callbacks);

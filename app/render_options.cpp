@@ -5,28 +5,10 @@
 
 #include "app/defaults.h"
 #include "app/parse_arguments.h"
+#include "app/parse_numbers.h"
 
 namespace pssmlt {
 namespace {
-
-// Numbers separated by `separator`, exactly `count` of them, nothing else.
-template <typename T>
-std::vector<T> parse_numbers(const std::string& text, char separator, size_t count,
-                             const std::string& usage) {
-  std::vector<T> values;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (values.size() < count) {
-    if (!values.empty() && (at == end || *at++ != separator)) break;
-    T value{};
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc()) break;
-    values.push_back(value);
-    at = next;
-  }
-  if (values.size() != count || at != end) throw Error("\"" + text + "\" is not " + usage);
-  return values;
-}
 
 // What the command line gives as text, before it is understood.
 struct RawOptions {

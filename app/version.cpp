@@ -4,6 +4,7 @@
 #include <spdlog/version.h>
 #include <tbb/version.h>
 #include <CLI/Version.hpp>
+#include <boost/version.hpp>
 #include <glm/detail/setup.hpp>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include <thread>
 
 #include "app/commands.h"
+#include "app/version.h"
 #include "core/plugin/plugin.h"
 
 namespace pssmlt {
@@ -33,17 +35,33 @@ std::string processor_features() {
   return text.empty() ? "baseline" : text;
 }
 
+std::string dotted(int version) {
+  return fmt::format("{}.{}.{}", version / 10000, version / 100 % 100, version % 100);
+}
+
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+  return {{"Embree", RTC_VERSION_STRING},
+          {"oneTBB", fmt::format("{} (loaded: {})", TBB_VERSION_STRING, TBB_runtime_version())},
+          {"fmt", dotted(FMT_VERSION)},
+          {"spdlog", dotted(SPDLOG_VERSION)},
+          {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
+                                        NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+          {"CLI11", CLI11_VERSION},
+          {"GLM", fmt::format("{}.{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR,
+                              GLM_VERSION_PATCH, GLM_VERSION_REVISION)},
+          {"Boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000,
+                                BOOST_VERSION % 100)}};
+}
 
 int run_version() {
   std::printf("pssmlt %s (plugin ABI %d, compiler %s)\n", PSSMLT_VERSION, abi_version, __VERSION__);
-  std::printf("Embree %s, oneTBB %s (loaded: %s)\n", RTC_VERSION_STRING, TBB_VERSION_STRING,
-              TBB_runtime_version());
-  std::printf("fmt %d.%d.%d, spdlog %d.%d.%d, nlohmann-json %d.%d.%d, CLI11 %s, GLM %d.%d.%d.%d\n",
-              FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, SPDLOG_VER_MAJOR,
-              SPDLOG_VER_MINOR, SPDLOG_VER_PATCH, NLOHMANN_JSON_VERSION_MAJOR,
-              NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION,
-              GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH, GLM_VERSION_REVISION);
+  std::string libraries;
+  for (const auto& [name, version] : library_versions()) {
+    libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
+  }
+  std::printf("%s\n", libraries.c_str());
   std::printf("processor: %s, %u threads\n", processor_features().c_str(),
               std::thread::hardware_concurrency());
   return 0;

@@ -168,6 +168,34 @@ std::vector<SplitImage> Developer::splits(SplitKind kind) const {
   return result;
 }
 
+GroupBlocks Developer::group_blocks() const {
+  const BlockGrid& grid = film_.blocks();
+  GroupBlocks result;
+  result.edge = grid.edge();
+  result.across = (film_.settings().size.x + grid.edge() - 1) / grid.edge();
+  std::vector<double> pixels(static_cast<size_t>(grid.count()));
+  for (int p = 0; p < film_.pixels(); ++p) pixels[static_cast<size_t>(grid.block(p))] += 1.0;
+  for (const LayerScales& l : layers_) {
+    result.common_variance = std::max(result.common_variance, l.common_variance);
+  }
+  for (int g = 0; g < group_count; ++g) {
+    const auto at = static_cast<size_t>(g);
+    const auto empty = [at](const LayerScales& l) { return l.group[0][at] <= 0.0; };
+    if (std::any_of(layers_.begin(), layers_.end(), empty)) continue;
+    auto& means = result.means.emplace_back(pixels.size());
+    for (size_t b = 0; b < pixels.size(); ++b) {
+      for (int l = 0; l < film_.layers(); ++l) {
+        for (int p = 0; p < film_.planes(l); ++p) {
+          means[b] += film_.block_sum(l, p, g, static_cast<int>(b)) *
+                      layers_[static_cast<size_t>(l)].group[static_cast<size_t>(p)][at];
+        }
+      }
+      means[b] *= picture_scale_ / pixels[b];
+    }
+  }
+  return result;
+}
+
 ErrorEstimate Developer::error() const {
   ErrorEstimate estimate;
   for (const LayerScales& l : layers_) {
@@ -207,7 +235,8 @@ void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
   }
   estimate.mean_known = least >= least_groups;
   if (!estimate.mean_known) return;
-  const double half_width = student_quantile(least - 1.0) * std::sqrt(variance);
+  estimate.mean_error = std::sqrt(variance);
+  const double half_width = student_quantile(least - 1.0) * estimate.mean_error;
   estimate.mean_low = estimate.mean - half_width;
   estimate.mean_high = estimate.mean + half_width;
 }

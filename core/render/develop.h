@@ -33,6 +33,13 @@ struct SplitImage {
   Image image;
 };
 
+// Mean luminance of every block of pixels by each group alone: independent estimates.
+struct GroupBlocks {
+  int edge = 16, across = 1;               // of a block [pixels]; blocks in a row
+  std::vector<std::vector<double>> means;  // [group][block], of the groups that have samples
+  double common_variance = 0.0;            // relative, of a factor common to all groups (b)
+};
+
 class Developer {
  public:
   // picture_scale: factor from what the film holds to the picture.
@@ -46,6 +53,7 @@ class Developer {
   Image variance() const;
   std::vector<SplitImage> splits(SplitKind kind) const;
   ErrorEstimate error() const;
+  GroupBlocks group_blocks() const;
 
  private:
   template <typename Value>

@@ -24,6 +24,7 @@ struct ErrorEstimate {
   double relative_mse = 0.0, low = 0.0, high = 0.0;
   bool mean_known = false;
   double mean = 0.0, mean_low = 0.0, mean_high = 0.0;  // of the luminance
+  double mean_error = 0.0;                             // its standard error
 };
 
 // What one layer's groups say about the mean.

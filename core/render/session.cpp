@@ -217,11 +217,7 @@ bool Session::interrupted() const {
   return callbacks_.stop != nullptr && callbacks_.stop->load(std::memory_order_relaxed);
 }
 
-double Session::elapsed() const {
-  return earlier_seconds_ + std::chrono::duration<double>(Clock::now() - begin_).count();
-}
-
-bool Session::every_layer_has_a_round() const {
+bool Session::has_picture() const {
   return std::all_of(layers_.begin(), layers_.end(),
                      [](const LayerState& l) { return l.rounds > 0; });
 }
@@ -234,7 +230,7 @@ bool Session::stop_now() {
   };
   if (interrupted()) return stop(StopReason::interrupted);
   if (next_layer() == nullptr) return stop(StopReason::samples);
-  if (!every_layer_has_a_round()) return false;
+  if (!has_picture()) return false;
   // The round that would end nearest to the budget is the last.
   if (settings_.seconds && elapsed() + 0.5 * round_seconds_ >= *settings_.seconds) {
     return stop(StopReason::time);
@@ -271,7 +267,7 @@ void Session::show_preview() {
 }
 
 void Session::after_round() {
-  if (!every_layer_has_a_round()) return;
+  if (!has_picture()) return;
   show_preview();
   if (callbacks_.progress && elapsed() >= next_error_) refresh_error();
   const auto& times = settings_.snapshot_seconds;
@@ -326,10 +322,17 @@ Developer Session::developer() const {
   return Developer(film_, std::move(scales), scene_.radiance_scale * scene_.exposure);
 }
 
+bool Session::step() {
+  LayerState* const layer = next_layer();
+  if (layer == nullptr) return false;
+  run_round(*layer);
+  return true;
+}
+
 RenderResult Session::run() {
   prepare();
   while (!stop_now()) {
-    run_round(*next_layer());
+    step();
     report_progress(0.0);
     after_round();
   }
@@ -341,7 +344,7 @@ RenderResult Session::run() {
 RenderResult Session::result(bool final_result) const {
   RenderResult r;
   r.stop = stop_;
-  r.complete = every_layer_has_a_round();
+  r.complete = has_picture();
   r.seconds = elapsed();
   for (const LayerState& l : layers_) {
     r.samples += l.samples;

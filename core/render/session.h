@@ -1,13 +1,13 @@
 // The session behind render(): layers, rounds, budgets, checkpoints.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <vector>
 
 #include "core/render/checkpoint.h"
 #include "core/render/film.h"
 #include "core/render/render.h"
+#include "core/render/stopwatch.h"
 #include "core/render/worker_pool.h"
 #include "core/sampling/evaluator.h"
 #include "core/sampling/primary_sample_owner.h"
@@ -45,15 +45,35 @@ struct LayerState {
 
 class Session {
  public:
+  // Keeps references to all three. The clock runs from here.
   Session(const BuiltScene& scene, const RenderSettings& settings,
           const RenderCallbacks& callbacks);
   RenderResult run();
 
+  // The pieces of run(), for those who let several sessions take turns: prepare() once, then step()
+  // as often as wanted, the clock held while another session works or a picture is taken. The
+  // film after n steps is that of run() after n rounds.
+  // Reads the checkpoint if asked to, then bootstraps. Throws Error.
+  void prepare();
+  // One round. False, and nothing done, if all layers have the samples of a budget in samples;
+  // budgets of time and error, snapshots and checkpoints are the caller's business here.
+  bool step();
+  void hold() { watch_.hold(); }
+  void go_on() { watch_.go_on(); }
+  // Counted wall time, earlier runs that were resumed included [s].
+  double elapsed() const { return earlier_seconds_ + watch_.seconds(); }
+  // Every layer has a round: pictures can be taken.
+  bool has_picture() const;
+  // final_result: with the images by path.
+  RenderResult result(bool final_result) const;
+  GroupBlocks group_blocks() const { return developer().group_blocks(); }
+  // Writes the settings' checkpoint; what fails is a warning in the log.
+  void checkpoint();
+
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = Stopwatch::Clock;
   void check_settings() const;
   void make_layers();
-  void prepare();
   void start_layer(LayerState& layer);
   LayerTools& tools(LayerState& layer, int slot);
   void run_units(LayerState& layer, int count, const std::function<void(int, int)>& body);
@@ -61,21 +81,17 @@ class Session {
   void run_passes(LayerState& layer);
   void run_round(LayerState& layer);
   bool stop_now();
-  bool every_layer_has_a_round() const;
   bool interrupted() const;
-  double elapsed() const;
   void after_round();
   void show_preview();
   void report_progress(double unfinished_samples);
   double fraction_done(double samples) const;
   void refresh_error();
   bool error_reached();
-  void checkpoint();
   void read_saved_state();
   void resume();
   CheckpointIdentity identity() const;
   Developer developer() const;
-  RenderResult result(bool final_result) const;
   nlohmann::json statistics(const RenderResult& result) const;
   nlohmann::json layer_statistics(const LayerState& layer) const;
   nlohmann::json rejection_statistics() const;
@@ -92,7 +108,7 @@ class Session {
   RayCounters earlier_rays_;           // of the runs that were resumed
   std::array<uint64_t, rejection_count> earlier_rejections_{};
   double earlier_seconds_ = 0.0;
-  Clock::time_point begin_ = Clock::now();
+  Stopwatch watch_;
   RenderPhase phase_ = RenderPhase::prepare;
   double round_seconds_ = 0.0;                                             // of the last round [s]
   double next_progress_ = 0.0, next_checkpoint_ = 0.0, next_error_ = 0.0;  // [s] of elapsed()

@@ -60,7 +60,6 @@ class SceneBuilder {
   void count(const Primitive& primitive);
   void finish_lights();
   void finish_features();
-  void finish_hashes(const std::string& settings);
 
   const SceneDescription& description_;
   const BuildOptions& options_;
@@ -336,26 +335,29 @@ void SceneBuilder::finish_features() {
   if (scene_->primitives_.empty()) built_.log.push_back("warning: the scene has no shapes");
 }
 
-void SceneBuilder::finish_hashes(const std::string& settings) {
-  built_.scene_hash = description_.hash[0] ^ mix_bits(description_.hash[1]);
-  const RasterFrame& r = scene_->frame_;
+// `settings`: of the layers, as build_layers() collects them.
+static void set_hashes(BuiltScene& built, const SceneDescription& description,
+                       const BuildOptions& options, std::string settings) {
+  built.scene_hash = description.hash[0] ^ mix_bits(description.hash[1]);
+  const RasterFrame& r = built.raster_map->frame();
   const std::string raster =
       fmt::format("{} {} {} {} {} {} {}", r.resolution.x, r.resolution.y, r.crop_min.x,
-                  r.crop_min.y, r.crop_max.x, r.crop_max.y, built_.max_component);
+                  r.crop_min.y, r.crop_max.x, r.crop_max.y, built.max_component);
+  for (const std::string& assignment : options.set) settings += assignment + "\n";
   std::array<uint64_t, 2> state{};
   hash_text(state, settings + raster);
-  built_.settings_hash = state[0] ^ mix_bits(state[1]);
-  std::string shown = fmt::format("{:016x} {}\n", built_.scene_hash, raster);
-  for (const Layer& layer : built_.layers) {
+  built.settings_hash = state[0] ^ mix_bits(state[1]);
+  std::string shown = fmt::format("{:016x} {}\n", built.scene_hash, raster);
+  for (const Layer& layer : built.layers) {
     const PathLimits& limits = layer.integrator->limits();
     shown += fmt::format("{} {} {}\n", limits.min_bounces, limits.max_bounces, limits.paths.text());
   }
-  for (const std::string& set : options_.set) {
+  for (const std::string& set : options.set) {
     if (!set.starts_with("integrator.") && !set.starts_with("sampler.")) shown += set + "\n";
   }
   state = {};
   hash_text(state, shown);
-  built_.picture_hash = state[0] ^ mix_bits(state[1]);
+  built.picture_hash = state[0] ^ mix_bits(state[1]);
 }
 
 BuiltScene SceneBuilder::build() {
@@ -365,13 +367,12 @@ BuiltScene SceneBuilder::build() {
   build_raster();
   std::string settings;
   built_.layers = build_layers(description_, options_, settings, built_.log);
-  for (const std::string& assignment : options_.set) settings += assignment + "\n";
   build_camera();
   build_lights();
   build_shapes();
   finish_lights();
   finish_features();
-  finish_hashes(settings);
+  set_hashes(built_, description_, options_, settings);
   for (std::string& line : take_color_warnings()) built_.log.push_back(std::move(line));
   for (const Layer& layer : built_.layers) layer.integrator->prepare(*scene_);
   scene_->features_.load_seconds = seconds_since(start) - scene_->features_.accel_seconds;
@@ -381,6 +382,17 @@ BuiltScene SceneBuilder::build() {
 
 BuiltScene build_scene(const SceneDescription& description, const BuildOptions& options) {
   return SceneBuilder(description, options).build();
+}
+
+BuiltScene with_layers(const BuiltScene& built, const SceneDescription& description,
+                       const BuildOptions& options) {
+  BuiltScene other = built;
+  other.log.clear();
+  std::string settings;
+  other.layers = build_layers(description, options, settings, other.log);
+  set_hashes(other, description, options, settings);
+  for (const Layer& layer : other.layers) layer.integrator->prepare(*built.scene);
+  return other;
 }
 
 }  // namespace pssmlt

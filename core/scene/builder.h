@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/integrator.h"
@@ -34,16 +35,21 @@ struct BuildOptions {
   bool honour_clamp = false;               // apply the film's maxcomponentvalue per sample
 };
 
+// Names and values of a plugin's parameters.
+using PluginValues = std::vector<std::pair<std::string, std::string>>;
+
 // One term of the picture: sampler x integrator x path class; the picture is the sum of the layers.
 struct Layer {
   std::string name;
   std::shared_ptr<Integrator> integrator;
   std::shared_ptr<Sampler> sampler;
   std::string integrator_name, sampler_name;
+  // Every parameter with its value in force, as text, in the order of the manual.
+  PluginValues integrator_values, sampler_values;
 };
 
 struct BuiltScene {
-  std::unique_ptr<Scene> scene;
+  std::shared_ptr<const Scene> scene;
   std::vector<Layer> layers;
   std::shared_ptr<const RasterMap> raster_map;
   std::string output;              // the film's file name, "" if it gives none
@@ -65,5 +71,10 @@ struct BuiltScene {
 
 // Throws Error with a location on anything wrong.
 BuiltScene build_scene(const SceneDescription& description, const BuildOptions& options);
+// The same scene with layers of its own, by other integrators, samplers and parameters of theirs;
+// all else is shared with `built`. The options' size, crop and camera must be those of `built`.
+// Throws Error.
+BuiltScene with_layers(const BuiltScene& built, const SceneDescription& description,
+                       const BuildOptions& options);
 
 }  // namespace pssmlt

@@ -1,5 +1,7 @@
 #include "core/scene/builder_layers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -91,6 +93,28 @@ void describe_settings(const std::string& kind, const Directive& d, std::string&
   }
 }
 
+// As text: the value of a parameter of any type.
+std::string value_text(const Parameter& p) {
+  std::string text;
+  const auto add = [&text](const std::string& one) { text += (text.empty() ? "" : " ") + one; };
+  for (const int v : p.ints) add(std::to_string(v));
+  for (const float v : p.floats) add(fmt::format("{}", v));
+  for (const std::string& v : p.strings) add(v);
+  for (const uint8_t v : p.bools) add(v ? "true" : "false");
+  return text;
+}
+
+PluginValues values_in_force(const std::vector<ParameterDoc>& docs, const Directive& d) {
+  PluginValues values;
+  for (const ParameterDoc& doc : docs) {
+    const auto given = std::ranges::find(d.parameters, doc.name, &Parameter::name);
+    std::string value = given == d.parameters.end() ? doc.fallback : value_text(*given);
+    std::erase(value, '"');
+    values.emplace_back(doc.name, std::move(value));
+  }
+  return values;
+}
+
 template <typename Kind>
 std::shared_ptr<Kind> make(const std::string& kind, const FoundPlugin& found, const Directive& d,
                            SceneResolver& resolver) {
@@ -154,6 +178,8 @@ Layer build_layer(const LayerDescription& description, const BuildOptions& optio
   layer.sampler = make<Sampler>("sampler", found_sampler, sampler, resolver);
   layer.integrator_name = found_integrator.descriptor->name;
   layer.sampler_name = found_sampler.descriptor->name;
+  layer.integrator_values = values_in_force(integrator_docs, integrator);
+  layer.sampler_values = values_in_force(sampler_docs, sampler);
   return layer;
 }
 
