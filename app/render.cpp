@@ -179,7 +179,7 @@ int run_render(const Arguments& arguments) {
   if (!options) return exit_done;
   RenderOptions& o = *options;
   set_log_level(o.quiet ? LogLevel::quiet : o.verbose ? LogLevel::verbose : LogLevel::normal);
-  RenderView view(o.view_while, o.scene, stop_requested);
+  RenderView view(o.view_while, o.scene, stop_requested());
   const BuiltScene scene = load(o);
   if (o.pixel || !o.replay.empty()) return inspect(o, scene);
   prepare_outputs(o, scene);

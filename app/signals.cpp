@@ -18,7 +18,7 @@ extern "C" void on_signal(int) {
 
 }  // namespace
 
-const std::atomic<bool>& stop_requested() { return requested; }
+std::atomic<bool>& stop_requested() { return requested; }
 
 void catch_signals(const char* message) {
   text = message;

@@ -8,7 +8,7 @@ namespace pssmlt {
 inline constexpr int exit_interrupted = 130;
 
 // Becomes true with the first signal after catch_signals().
-const std::atomic<bool>& stop_requested();
+std::atomic<bool>& stop_requested();
 // The first signal prints `message` (static) and asks to stop, the second ends the process.
 void catch_signals(const char* message);
 
