@@ -31,12 +31,9 @@ int run(Arguments arguments) {
   }
   if (first == "--version" || first == "version") return pssmlt::run_version();
   static const std::map<std::string, int (*)(const Arguments&)> commands = {
-      {"render", pssmlt::run_render},
-      {"compare", pssmlt::run_compare},
-      {"plugins", pssmlt::run_plugins},
-      {"info", pssmlt::run_info},
-      {"error", pssmlt::run_error},
-      {"merge", pssmlt::run_merge}};
+      {"render", pssmlt::run_render},   {"compare", pssmlt::run_compare},
+      {"plugins", pssmlt::run_plugins}, {"info", pssmlt::run_info},
+      {"error", pssmlt::run_error},     {"merge", pssmlt::run_merge}};
   const auto command = commands.find(first);
   if (command == commands.end()) return pssmlt::run_render(arguments);
   arguments.erase(arguments.begin());

@@ -1,21 +1,23 @@
-// Follows a render: one event source for numbers, one request at a time for pictures, so that a slow
-// browser leaves pictures out instead of falling behind.
+// Follows a render: one event source for numbers, one request at a time for pictures, so that a
+// slow browser leaves pictures out instead of falling behind.
 'use strict';
 
 const at = (id) => document.getElementById(id);
 const view = {
   token: '',
-  width: 0, height: 0, exponent: 0,
-  halves: null,       // Uint16Array, R G B of every pixel
-  pixels: null,       // ImageData of the picture
-  version: 0,         // of the picture that is shown
-  wanted: 0,          // of the newest one
+  width: 0,
+  height: 0,
+  exponent: 0,
+  halves: null,  // Uint16Array, R G B of every pixel
+  pixels: null,  // ImageData of the picture
+  version: 0,    // of the picture that is shown
+  wanted: 0,     // of the newest one
   loading: false,
   final: false,
-  exposure: 0,        // in stops
+  exposure: 0,                   // in stops
   bytes: new Uint8Array(65536),  // half float -> what the display gets
   cross: null,
-  errors: [],         // [seconds, relMSE]
+  errors: [],  // [seconds, relMSE]
 };
 
 // --- numbers ---------------------------------------------------------------------------------
@@ -56,7 +58,8 @@ function rows_of(report, prefix = '') {
       const of = `${(100 * value.rate).toFixed(1)} % of ${count(value.mutations || 0)}`;
       return [[label, of]];
     }
-    if (value && typeof value === 'object' && !Array.isArray(value)) return rows_of(value, label + ', ');
+    if (value && typeof value === 'object' && !Array.isArray(value))
+      return rows_of(value, label + ', ');
     return typeof value === 'string' ? [[label, value]] : [];
   });
 }
@@ -65,8 +68,10 @@ function show_layers(layers) {
   at('layers').replaceChildren(...(layers || []).flatMap((layer) => {
     const head = document.createElement('h2'), table = document.createElement('table');
     head.textContent = `${layer.sampler} × ${layer.integrator}`;
-    const rows = [['samples per pixel', number(layer.samples_per_pixel)], ['rounds', String(layer.rounds)],
-      ...rows_of(layer.report)];
+    const rows = [
+      ['samples per pixel', number(layer.samples_per_pixel)], ['rounds', String(layer.rounds)],
+      ...rows_of(layer.report)
+    ];
     for (const [name, value] of rows) {
       const row = table.insertRow(), cell = document.createElement('th');
       cell.scope = 'row';
@@ -84,7 +89,8 @@ function show_error(error, seconds) {
     return;
   }
   const p = (v) => v.toPrecision(3);
-  at('error').textContent = `relMSE ${p(error.relmse)}, 95 % interval ${p(error.low)} to ${p(error.high)}`;
+  at('error').textContent =
+      `relMSE ${p(error.relmse)}, 95 % interval ${p(error.low)} to ${p(error.high)}`;
   const last = view.errors.at(-1);
   if (!last || last[1] !== error.relmse) {
     view.errors.push([Math.max(seconds, 1e-3), Math.max(error.relmse, 1e-30)]);
@@ -99,8 +105,9 @@ function draw_curve() {
   const logs = view.errors.map(([s, e]) => [Math.log10(s), Math.log10(e)]);
   const range = (k) => [Math.min(...logs.map((p) => p[k])), Math.max(...logs.map((p) => p[k]))];
   const [x0, x1] = range(0), [y0, y1] = range(1);
-  const place = ([x, y]) => [8 + (canvas.width - 16) * (x - x0) / (x1 - x0 || 1),
-    canvas.height - 8 - (canvas.height - 16) * (y - y0) / (y1 - y0 || 1)];
+  const place = ([x, y]) =>
+      [8 + (canvas.width - 16) * (x - x0) / (x1 - x0 || 1),
+       canvas.height - 8 - (canvas.height - 16) * (y - y0) / (y1 - y0 || 1)];
   pen.clearRect(0, 0, canvas.width, canvas.height);
   pen.strokeStyle = pen.fillStyle = getComputedStyle(canvas).color;
   pen.lineWidth = 2;
@@ -112,7 +119,10 @@ function draw_curve() {
 }
 
 const state_text = {
-  loading: 'loading the scene', preparing: 'preparing', bootstrap: 'bootstrap', rendering: 'rendering',
+  loading: 'loading the scene',
+  preparing: 'preparing',
+  bootstrap: 'bootstrap',
+  rendering: 'rendering',
   writing: 'writing',
 };
 
@@ -130,9 +140,11 @@ function show_status(s) {
   at('stop').disabled = s.final || s.state === 'writing' || !view.token;
   const what = s.chains ? 'mutations' : 'samples';
   if (s.elapsed !== undefined) {
-    fill(at('numbers'), [['elapsed', duration(s.elapsed)], ['remaining', duration(s.remaining)],
+    fill(at('numbers'), [
+      ['elapsed', duration(s.elapsed)], ['remaining', duration(s.remaining)],
       [what, count(s.samples)], [what + ' per second', count(s.samples_per_second || 0)],
-      ['picture shows', s.image ? duration(s.image.seconds) : 'nothing yet']]);
+      ['picture shows', s.image ? duration(s.image.seconds) : 'nothing yet']
+    ]);
   }
   show_error(s.error, s.elapsed);
   show_layers(s.layers);
@@ -221,7 +233,10 @@ function show_pixel() {
 
 function move_cross(x, y) {
   if (!view.halves) return;
-  view.cross = {x: Math.min(Math.max(x, 0), view.width - 1), y: Math.min(Math.max(y, 0), view.height - 1)};
+  view.cross = {
+    x: Math.min(Math.max(x, 0), view.width - 1),
+    y: Math.min(Math.max(y, 0), view.height - 1)
+  };
   show_pixel();
 }
 
@@ -243,7 +258,7 @@ function toggle_zoom() {
 function toggle_theme() {
   const root = document.documentElement;
   const dark = root.dataset.theme ? root.dataset.theme === 'dark' :
-    matchMedia('(prefers-color-scheme: dark)').matches;
+                                    matchMedia('(prefers-color-scheme: dark)').matches;
   root.dataset.theme = dark ? 'light' : 'dark';
   if (view.errors.length) draw_curve();
 }
@@ -267,7 +282,12 @@ const keys = {
   t: toggle_theme,
   s: ask_to_stop,
 };
-const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+const arrows = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1]
+};
 
 document.addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || at('confirm').open) return;
@@ -278,7 +298,8 @@ at('picture').addEventListener('keydown', (event) => {
   const step = arrows[event.key];
   if (!step) return;
   event.preventDefault();
-  const from = view.cross || {x: view.width >> 1, y: view.height >> 1}, by = event.shiftKey ? 10 : 1;
+  const from = view.cross || {x: view.width >> 1, y: view.height >> 1},
+        by = event.shiftKey ? 10 : 1;
   move_cross(from.x + by * step[0], from.y + by * step[1]);
 });
 at('picture').addEventListener('pointermove', (event) => {
