@@ -8,10 +8,8 @@
 namespace pssmlt {
 namespace {
 
-constexpr int cells = 64;           // a side
-constexpr int subcells = 4;         // midpoints a side whose mean is a cell's value
-constexpr float max_radius = 64.f;  // [pixels]
-constexpr size_t max_candidates = 2 * static_cast<size_t>(max_radius) + 1;
+constexpr int subcells = 4;  // midpoints a side whose mean is a cell's value
+constexpr int cells = RasterMap::cells;
 
 // Interval of a cdf (0 first, 1 last) that holds u, and where in it [0,1).
 struct Inverted {
@@ -45,31 +43,6 @@ float cell_value(const Filter& filter, int x, int y, const dvec2& radius) {
   return static_cast<float>(sum / (subcells * subcells));
 }
 
-// Pixels of one axis, absolute, whose support holds a position, cut to the window, and the cell of
-// the table that it lies in for each.
-struct Candidates {
-  int first = 0, count = 0;
-  std::array<uint8_t, max_candidates> cell;
-};
-// cells_a_pixel: cells / (2 radius).
-void find_candidates(double position, double radius, double cells_a_pixel, int low, int high,
-                     Candidates& found) {
-  // Pixels above it have the position in their support.
-  const double from = position - radius - 0.5;
-  const int first = std::max(static_cast<int>(from) + (from > 0.0 ? 1 : 0), low);
-  found.first = first;
-  found.count = 0;
-  // The cell falls by the same step from pixel to pixel.
-  double at = (position - (first + 0.5) + radius) * cells_a_pixel;
-  for (int p = first; p < high && at >= 0.0; ++p, at -= cells_a_pixel) {
-    if (at < cells) {
-      found.cell[static_cast<size_t>(found.count++)] = static_cast<uint8_t>(at);
-    } else {
-      found.first = p + 1;
-    }
-  }
-}
-
 }  // namespace
 
 RasterMap::RasterMap(const RasterFrame& frame, std::shared_ptr<const Filter> filter)
@@ -87,6 +60,7 @@ RasterMap::RasterMap(const RasterFrame& frame, std::shared_ptr<const Filter> fil
   }
   const bool constant = std::ranges::all_of(values_, [&](float v) { return v == values_[0]; });
   pixel_box_ = constant && radius_ == dvec2(0.5);
+  separate();
 }
 
 void RasterMap::tabulate(const Filter& filter) {
@@ -125,6 +99,27 @@ void RasterMap::accumulate() {
   abs_integral_ = abs_sum * cell_area;
 }
 
+// Tables of one axis each, if their product is the filter but for rounding.
+void RasterMap::separate() {
+  const auto largest =
+      std::ranges::max_element(values_, {}, [](float value) { return std::abs(value); });
+  const auto at = static_cast<size_t>(largest - values_.begin());
+  const float top = *largest;
+  std::vector<float> column(cells), row(cells);
+  for (size_t i = 0; i < cells; ++i) {
+    column[i] = values_[at / cells * cells + i];
+    row[i] = values_[i * cells + at % cells] / top;
+  }
+  for (size_t y = 0; y < cells; ++y) {
+    for (size_t x = 0; x < cells; ++x) {
+      const float difference = values_[y * cells + x] - column[x] * row[y];
+      if (!(std::abs(difference) <= 1e-6f * std::abs(top))) return;
+    }
+  }
+  column_ = std::move(column);
+  row_ = std::move(row);
+}
+
 RasterMap::Offset RasterMap::sample_offset(double x, double y) const {
   if (pixel_box_) return {dvec2(x, y) - 0.5, 1.f};
   const Inverted row = invert(marginal_cdf_.data(), marginal_guide_.data(), y);
@@ -158,58 +153,6 @@ float RasterMap::filter_value(const dvec2& offset) const {
   const dvec2 at = (offset / radius_ + 1.0) * (0.5 * cells);
   if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < cells && at.y < cells)) return 0.f;
   return values_[static_cast<size_t>(static_cast<int>(at.y) * cells + static_cast<int>(at.x))];
-}
-
-PixelCredit RasterMap::pick(const dvec2& raster, float u) const {
-  const ivec2 low = frame_.crop_min, high = frame_.crop_max;
-  const int width = high.x - low.x;
-  const dvec2 outside = glm::max(dvec2(low) - raster, raster - dvec2(high));
-  if (!(outside.x <= radius_.x && outside.y <= radius_.y)) return {};
-  if (pixel_box_) {
-    const int x = static_cast<int>(std::floor(raster.x)),
-              y = static_cast<int>(std::floor(raster.y));
-    if (x < low.x || y < low.y || x >= high.x || y >= high.y) return {};
-    return {(y - low.y) * width + x - low.x, 1.f};
-  }
-  Candidates xs, ys;
-  find_candidates(raster.x, radius_.x, cells_a_pixel_.x, low.x, high.x, xs);
-  find_candidates(raster.y, radius_.y, cells_a_pixel_.y, low.y, high.y, ys);
-  const auto value = [&](int i, int j) {
-    return values_[static_cast<size_t>(ys.cell[static_cast<size_t>(j)]) * cells +
-                   xs.cell[static_cast<size_t>(i)]];
-  };
-  std::array<float, max_candidates> row_sums;
-  float sum = 0.f;
-  int last = 0;  // row with a value
-  for (int j = 0; j < ys.count; ++j) {
-    float row_sum = 0.f;
-    for (int i = 0; i < xs.count; ++i) row_sum += std::abs(value(i, j));
-    row_sums[static_cast<size_t>(j)] = row_sum;
-    sum += row_sum;
-    if (row_sum > 0.f) last = j;
-  }
-  if (!(sum > 0.f)) return {};
-  // By inversion, first among the rows; where rounding leaves something over, the last one with a
-  // value stays chosen.
-  float left = u * sum;
-  PixelCredit chosen;
-  for (int j = 0; j < ys.count; ++j) {
-    const float row_sum = row_sums[static_cast<size_t>(j)];
-    if (row_sum == 0.f) continue;
-    if (left >= row_sum && j < last) {
-      left -= row_sum;
-      continue;
-    }
-    for (int i = 0; i < xs.count; ++i) {
-      const float f = value(i, j);
-      if (f == 0.f) continue;
-      chosen = {(ys.first + j - low.y) * width + xs.first + i - low.x,
-                static_cast<float>((f < 0.f ? -sum : sum) / integral_)};
-      left -= std::abs(f);
-      if (left < 0.f) return chosen;
-    }
-  }
-  return chosen;
 }
 
 }  // namespace pssmlt

@@ -45,19 +45,27 @@ class RasterMap {
   // Integral of the tabulated filter [pixels^2].
   float filter_integral() const { return static_cast<float>(integral_); }
 
+  static constexpr int cells = 64;           // of the table, a side
+  static constexpr float max_radius = 64.f;  // [pixels]
+
  private:
+  struct Candidates;
   struct Offset {
     dvec2 offset{0.0};  // from the pixel's centre [pixels]
     float weight = 0.f;
   };
   void tabulate(const Filter& filter);
   void accumulate();
+  void separate();
   Offset sample_offset(double x, double y) const;
+  PixelCredit pick_pair(const Candidates& xs, const Candidates& ys, float u) const;
+  PixelCredit pick_separately(const Candidates& xs, const Candidates& ys, float u) const;
 
   RasterFrame frame_;
   dvec2 radius_{0.5}, cells_a_pixel_{0.0};
-  bool pixel_box_ = false;     // constant over exactly one pixel: positions map as they are
-  std::vector<float> values_;  // of the cells, row by row
+  bool pixel_box_ = false;           // constant over exactly one pixel: positions map as they are
+  std::vector<float> values_;        // of the cells, row by row
+  std::vector<float> column_, row_;  // values_[y][x] = row_[y] column_[x]; empty: not separable
   // Tabulated |f| for inversion: marginal over rows, then conditional over the cells of a row; each
   // starts with 0 and ends with 1.
   std::vector<double> marginal_cdf_, conditional_cdf_;

@@ -21,6 +21,16 @@ class Lobed final : public Filter {
   }
 };
 
+// The same as a product.
+class Product final : public Filter {
+ public:
+  vec2 radius() const override { return {2.f, 1.5f}; }
+  float evaluate(const vec2& o) const override {
+    if (std::abs(o.x) > 2.f || std::abs(o.y) > 1.5f) return 0.f;
+    return (std::cos(1.1f * o.x) + 0.02f * o.x) * (std::exp(-o.y * o.y) - 0.2f);
+  }
+};
+
 class Constant final : public Filter {
  public:
   Constant(float value, vec2 radius) : value_(value), radius_(radius) {}
@@ -93,9 +103,10 @@ TEST(RasterMap, CameraPointsIntegrateLikeTheFilter) {
 
 // A splat's expected credit to each pixel is f / integral f, by an even grid of u. Positions up to
 // the filter's radius outside the window count.
-TEST(RasterMap, PickGivesEveryPixelItsShare) {
-  const Lobed filter;
-  const RasterMap map(cropped(), std::make_shared<Lobed>());
+template <typename LobedFilter>
+void expect_shares() {
+  const LobedFilter filter;
+  const RasterMap map(cropped(), std::make_shared<LobedFilter>());
   double norm = 0.0;
   constexpr int grid = 400;
   for (int j = 0; j < grid; ++j) {
@@ -123,6 +134,9 @@ TEST(RasterMap, PickGivesEveryPixelItsShare) {
     }
   }
 }
+
+TEST(RasterMap, PickGivesEveryPixelItsShare) { expect_shares<Lobed>(); }
+TEST(RasterMap, PickGivesEveryPixelItsShareOfAProduct) { expect_shares<Product>(); }
 
 // Camera samples over the window and light splats spread over the plane with unit density give a
 // constant function the same constant in every pixel, at the window's edges too.
