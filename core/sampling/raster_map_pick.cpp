@@ -31,7 +31,6 @@ struct RasterMap::Candidates {
 namespace {
 
 constexpr size_t max_candidates = 2 * static_cast<size_t>(RasterMap::max_radius) + 1;
-constexpr int cells = RasterMap::cells;
 
 // A candidate of one axis, chosen with probability |value| / sum.
 struct Choice {
