@@ -66,7 +66,7 @@ function allMetrics() {
   const rows = rowsOf(
       (t) =>
           [...metrics.map((m, i) => R.errorCell(t.at_end?.[m.id], best[i])),
-           bias(t),
+           bias(t, R.scene()?.reference?.mean_error),
   ]);
   const columns = [
     {title: 'technique'},
@@ -75,8 +75,9 @@ function allMetrics() {
   ];
   return R.table(`All metrics ${R.endText()}`, columns, rows);
 }
-// Mean over the runs; its standard error from the runs where there are several.
-function bias(t) {
+// Mean over the runs; its standard error from the runs where there are several, with that of the
+// reference, which all runs share.
+function bias(t, ofReference) {
   const last =
       (t.runs ?? []).map((r) => r.points?.[r.points.length - 1]).filter((p) => known(p?.mean_bias));
   if (!last.length) return R.unknown;
@@ -84,7 +85,8 @@ function bias(t) {
   const spread = Math.sqrt(
       last.reduce((s, p) => s + (p.mean_bias - mean) ** 2, 0) / Math.max(1, last.length - 1) /
       last.length);
-  const error = last.length > 1 ? spread : last[0].mean_bias_error;
+  const shared = known(ofReference) ? ofReference : 0;
+  const error = last.length > 1 ? Math.hypot(spread, shared) : last[0].mean_bias_error;
   return `${R.number(100 * mean, 2)} %` + (known(error) ? ` ± ${R.number(100 * error, 2)} %` : '');
 }
 
