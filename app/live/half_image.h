@@ -1,5 +1,5 @@
-// The picture as the live page reads it: half floats, not compressed. Making it costs a few
-// milliseconds a megapixel, where deflating takes a hundred times that from the render.
+// The picture as the live page reads it: half floats, not compressed: on loopback
+// bandwidth is free, and deflating would take its time from the render.
 #pragma once
 
 #include <cstdint>

@@ -136,7 +136,8 @@ LayerBegin "rest" Sampler "independent" Integrator "path" "integer mindepth" 2 L
 }
 
 // Exponential noise of mean 1 and variance 1 in every pixel: the estimate is right on average (the
-// picture's own values in the denominator raise it by 3 / samples, 2.4 %), and its interval, meant
+// pixels' own values, which at this relative variance make up nearly all of the denominator, raise
+// it by 3 / samples, 2.4 %), and its interval, meant
 // to hold in 95 %, holds in 24 renders at least 17 times (chance of less: 1e-5 for 95 %).
 TEST(Render, ErrorEstimateIsCalibrated) {
   const auto noise = [](PrimarySample& u, Splats& out) {
