@@ -45,11 +45,12 @@ double peaked_pixel(int p) {
 ParameterSet settings(const ParameterSet& more = {}) {
   ParameterSet set = {test::integer("bootstrapsamples", 16000), test::integer("chains", 64)};
   set.insert(set.end(), more.begin(), more.end());
-  for (const auto& [name, value] :
-       {std::pair{"filmprobability", 0.1f}, {"streamprobability", 0.2f}}) {
+  const auto add = [&set](const char* name, float value) {
     const auto same = [&](const auto& parameter) { return parameter.name == name; };
     if (std::ranges::none_of(set, same)) set.push_back(test::number(name, value));
-  }
+  };
+  add("filmprobability", 0.1f);
+  add("streamprobability", 0.2f);
   return set;
 }
 

@@ -34,8 +34,8 @@ double near_ring(double x, double y) {
 std::vector<float> Pictures::render(int technique, double seconds) const {
   std::vector<float> rgb;
   rgb.reserve(3 * static_cast<size_t>(width_) * static_cast<size_t>(height_));
-  std::mt19937 random(static_cast<unsigned>(1000 * technique + 10 * scene_ + 1) +
-                      static_cast<unsigned>(seconds * 100));
+  const unsigned moment = std::isfinite(seconds) ? static_cast<unsigned>(seconds * 100) : 0;
+  std::mt19937 random(static_cast<unsigned>(1000 * technique + 10 * scene_ + 1) + moment);
   std::normal_distribution<double> normal;
   std::vector<double> blotch(static_cast<size_t>(width_ / 6 + 2), 0.0);
   const bool chains = technique % 3 == 2;
