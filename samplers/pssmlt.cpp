@@ -136,6 +136,7 @@ class Pssmlt final : public Sampler {
   void plan(const RasterFrame& frame);
   void bootstrap(const SamplerContext& context);
   void start_chains(const SamplerContext& context);
+  int group(int chain) const;
   void start_chain(int chain, uint32_t candidate, Worker& worker);
   WalkTally total() const;
   MeanTally normalisation() const;
@@ -258,7 +259,7 @@ void Pssmlt::run(int round, int unit, SplatSink& sink, Worker& worker) {
   const auto mutation = static_cast<uint64_t>(round) * static_cast<uint64_t>(steps_);
   for (int c = unit * chains_a_unit; c < (unit + 1) * chains_a_unit; ++c) {
     Chain& chain = chains_[static_cast<size_t>(c)];
-    ChainHost host(sink, worker, current, c % group_count);
+    ChainHost host(sink, worker, current, group(c));
     host.restore(chain);
     walker.load(static_cast<uint32_t>(c), mutation, chain.numbers, chain.credit.pixel >= 0,
                 chain.value);
@@ -268,6 +269,14 @@ void Pssmlt::run(int round, int unit, SplatSink& sink, Worker& worker) {
     chain.value = walker.value();
   }
   tallies_[static_cast<size_t>(unit)].merge(tally);
+}
+
+// Systematic resampling gives a bright candidate to neighbouring chains. They are in one group, and
+// the two halves of the picture (even and odd groups) have halves of the candidates each: what few
+// candidates found makes groups and halves differ, as it must for the error to be seen.
+int Pssmlt::group(int chain) const {
+  const int stretch = static_cast<int>(int64_t{chain} * group_count / chain_count_);
+  return stretch < group_count / 2 ? 2 * stretch : 2 * stretch - (group_count - 1);
 }
 
 double Pssmlt::scale(int plane, int, int rounds) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/metrics/metrics.h"
+#include "core/render/likely_values.h"
 
 namespace pssmlt::compare {
 namespace {
@@ -41,11 +42,20 @@ Number relative_variance(const Half& h, const Image& level) {
   return sum;
 }
 
+// What the truth is likely to be, from both. A spike of the noisier one must not count as light
+// that is there, or its variance would be divided by itself.
+Image common_level(const RenderResult& a, const RenderResult& b) {
+  const Image picture = mix(a.image, 0.5, b.image, 0.5);
+  const Image half[2] = {mix(a.half[0], 0.5, b.half[0], 0.5), mix(a.half[1], 0.5, b.half[1], 0.5)};
+  if (half[0].data.empty() || half[1].data.empty()) return picture;
+  return likely_values(picture, half[0], half[1]);
+}
+
 // Weight of the first.
 double weight_of_first(const Half& a, const Half& b) {
   const bool a_black = mean(a.result.image) == 0.0, b_black = mean(b.result.image) == 0.0;
   if (a_black != b_black) return a_black ? 0.0 : 1.0;
-  const Image level = mix(a.result.image, 0.5, b.result.image, 0.5);
+  const Image level = common_level(a.result, b.result);
   const Number va = relative_variance(a, level), vb = relative_variance(b, level);
   if (!va || !vb || !(*va + *vb > 0.0)) return 0.5;
   return *vb / (*va + *vb);

@@ -2,115 +2,123 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <cmath>
 
 #include "core/base/math.h"
+#include "core/base/rgb.h"
 
 namespace pssmlt {
 namespace {
 
-constexpr int near = 3, far = 15;  // reach of the windows to each side [pixels]
-// What the pixels of the small window must know in sum to weigh as much as the large window. One
-// whose halves agree knows 9, one that holds something in one half only knows nothing.
-constexpr double far_weight = 30.0;
-// Relative variance at which a pixel is trusted half.
-constexpr float half_trusted = 0.1f;
-// Added to relative variances in the window's mean, so that no pixel drowns the others.
-constexpr float least_variance = 0.1f;
+constexpr std::array reaches = {0, 1, 2, 3, 5, 8, 12, 18, 27};  // of windows to each side [pixels]
+// A window is known well enough if the variance of its mean over the mean's square is below this.
+// For the pixel alone, whose variance is from two numbers, the limit is the lower one.
+constexpr double alone_enough = 0.02, window_enough = 0.1;
+constexpr double confidence = 3.0;  // half width of the intervals [standard deviations]
 
-using Sums = std::array<double, 4>;  // weighted channels, weights
+// Values of the three channels and the variances of their means.
+struct Known {
+  std::array<double, 3> value{}, variance{};
+};
 
-// Variance of the mean of two halves over its square, of all channels together; 1 for black,
-// and at most, which negative lobes of filters may exceed.
-float relative_variance(const float* half0, const float* half1) {
-  float square = 0.f, difference = 0.f;
-  for (int c = 0; c < 3; ++c) {
-    square += sqr(half0[c] + half1[c]);
-    difference += sqr(half0[c] - half1[c]);
-  }
-  return difference < square ? difference / square : 1.f;
-}
-
-// See the header. `trust`: in the pixel's own value, [0, 1].
-float likely_value(float own, float smaller_half, float around, float trust) {
-  const float other = own > around ? std::max(smaller_half, around) : 0.5f * (own + around);
-  return trust * own + (1.f - trust) * other;
-}
-
-// Sums over windows of 2 reach + 1 in a line of `count` elements that lie `stride` apart.
-void sum_line(const Sums* in, Sums* out, int count, size_t stride, int reach) {
-  std::vector<Sums> before(static_cast<size_t>(count) + 1);
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    for (size_t c = 0; c < 4; ++c) before[i + 1][c] = before[i][c] + in[i * stride][c];
-  }
-  for (int i = 0; i < count; ++i) {
-    const Sums& low = before[static_cast<size_t>(std::max(i - reach, 0))];
-    const Sums& high = before[static_cast<size_t>(std::min(i + reach + 1, count))];
-    for (size_t c = 0; c < 4; ++c) out[static_cast<size_t>(i) * stride][c] = high[c] - low[c];
-  }
-}
-
-std::vector<Sums> window_sums(const std::vector<Sums>& own, int width, int height, int reach) {
-  std::vector<Sums> rows(own.size()), both(own.size());
-  const auto w = static_cast<size_t>(width);
-  for (size_t y = 0; y < static_cast<size_t>(height); ++y) {
-    sum_line(&own[y * w], &rows[y * w], width, 1, reach);
-  }
-  for (size_t x = 0; x < w; ++x) sum_line(&rows[x], &both[x], height, w, reach);
-  return both;
-}
-
-// Weighted values of the pixels, and their weights.
-std::vector<Sums> weigh(const Image& picture, const std::vector<float>& relative) {
-  std::vector<Sums> own(relative.size());
-  for (size_t p = 0; p < own.size(); ++p) {
-    own[p][3] = 1.0 / static_cast<double>(relative[p] + least_variance);
-    for (size_t c = 0; c < 3; ++c) {
-      own[p][c] = own[p][3] * static_cast<double>(picture.data[3 * p + c]);
+// Sums over any window in constant time (Crow 1984, summed-area tables).
+class WindowSums {
+ public:
+  WindowSums(const Image& picture, const Image& half0, const Image& half1)
+      : width_(picture.width), height_(picture.height), table_(at(0, height_ + 1)) {
+    for (int y = 0; y < height_; ++y) {
+      Known row;
+      for (int x = 0; x < width_; ++x) {
+        Known& sum = table_[at(x + 1, y + 1)];
+        sum = table_[at(x + 1, y)];
+        for (size_t c = 0; c < 3; ++c) {
+          const size_t p =
+              3 * (static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)) +
+              c;
+          row.value[c] += static_cast<double>(picture.data[p]);
+          row.variance[c] += 0.25 * sqr(static_cast<double>(half0.data[p] - half1.data[p]));
+          sum.value[c] += row.value[c];
+          sum.variance[c] += row.variance[c];
+        }
+      }
     }
   }
-  return own;
+
+  // Of the window around (x, y), cut off at the borders.
+  Known mean(int x, int y, int reach) const {
+    const int x0 = std::max(x - reach, 0), x1 = std::min(x + reach + 1, width_);
+    const int y0 = std::max(y - reach, 0), y1 = std::min(y + reach + 1, height_);
+    const Known &a = table_[at(x0, y0)], &b = table_[at(x1, y0)];
+    const Known &c = table_[at(x0, y1)], &d = table_[at(x1, y1)];
+    const double one = 1.0 / (static_cast<double>(x1 - x0) * static_cast<double>(y1 - y0));
+    Known mean;
+    for (size_t i = 0; i < 3; ++i) {
+      mean.value[i] = one * (d.value[i] - c.value[i] - b.value[i] + a.value[i]);
+      const double sum = d.variance[i] - c.variance[i] - b.variance[i] + a.variance[i];
+      mean.variance[i] = one * one * std::max(sum, 0.0);  // differences of sums may round below 0
+    }
+    return mean;
+  }
+
+ private:
+  size_t at(int x, int y) const {
+    return static_cast<size_t>(y) * (static_cast<size_t>(width_) + 1) + static_cast<size_t>(x);
+  }
+  int width_, height_;
+  std::vector<Known> table_;  // of all pixels above and to the left
+};
+
+// Intervals in which the value lies, as far as the windows so far say.
+struct Intervals {
+  std::array<double, 3> low, high;
+  Intervals() { low.fill(-INFINITY), high.fill(INFINITY); }
+  // Narrows them by this one's; false if nothing is left.
+  bool meet(const Known& known) {
+    for (size_t c = 0; c < 3; ++c) {
+      const double width = confidence * std::sqrt(known.variance[c]);
+      low[c] = std::max(low[c], known.value[c] - width);
+      high[c] = std::min(high[c], known.value[c] + width);
+      if (low[c] > high[c]) return false;
+    }
+    return true;
+  }
+};
+
+bool known_to(const Known& known, double enough) {
+  double square = 0.0, variance = 0.0;
+  for (size_t c = 0; c < 3; ++c) {
+    square += sqr(known.value[c]);
+    variance += known.variance[c];
+  }
+  return variance <= enough * square;
 }
 
-// Mean of channel c around a pixel that is left out itself; nothing where there are no others.
-// `others`: pixels of the small window without this one.
-std::optional<double> mean_around(const Sums& own, const Sums& small, const Sums& large, int others,
-                                  size_t c) {
-  const double weight = small[3] - own[3];
-  if (others == 0 || !(weight > 0.0)) return std::nullopt;
-  const double known = weight - others / (1.0 + static_cast<double>(least_variance));
-  const double share = known / (known + far_weight);
-  return share * (small[c] - own[c]) / weight +
-         (1.0 - share) * (large[c] - own[c]) / (large[3] - own[3]);
-}
-
-// Pixels of the small window around `at` in a line of `count`.
-int window_length(int at, int count) {
-  return std::min(at + near, count - 1) - std::max(at - near, 0) + 1;
+std::array<double, 3> likely_value(const WindowSums& sums, int x, int y,
+                                   std::array<double, 3> likely) {
+  Intervals intervals;
+  for (const int reach : reaches) {
+    const Known known = sums.mean(x, y, reach);
+    if (!intervals.meet(known)) break;
+    if (reach > 0) likely = known.value;
+    if (known_to(known, reach == 0 ? alone_enough : window_enough)) break;
+  }
+  return likely;
 }
 
 }  // namespace
 
 Image likely_values(const Image& picture, const Image& half0, const Image& half1) {
-  std::vector<float> relative(picture.data.size() / 3);
-  for (size_t p = 0; p < relative.size(); ++p) {
-    relative[p] = relative_variance(&half0.data[3 * p], &half1.data[3 * p]);
-  }
-  const std::vector<Sums> own = weigh(picture, relative);
-  const std::vector<Sums> small = window_sums(own, picture.width, picture.height, near);
-  const std::vector<Sums> large = window_sums(own, picture.width, picture.height, far);
+  const WindowSums sums(picture, half0, half1);
   Image result = picture;
-  for (size_t p = 0; p < relative.size(); ++p) {
-    // None for a spike in one half, whose relative variance is 1.
-    const float trust = sqr(1.f - relative[p]) / (1.f + sqr(relative[p] / half_trusted));
-    const int x = static_cast<int>(p) % picture.width, y = static_cast<int>(p) / picture.width;
-    const int others = window_length(x, picture.width) * window_length(y, picture.height) - 1;
-    for (size_t c = 0; c < 3; ++c) {
-      const auto around = mean_around(own[p], small[p], large[p], others, c);
-      if (!around) continue;
-      const size_t at = 3 * p + c;
-      const float smaller = std::min(half0.data[at], half1.data[at]);
-      result.data[at] = likely_value(picture.data[at], smaller, static_cast<float>(*around), trust);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      float* to = result.pixel(x, y);
+      const float *a = half0.pixel(x, y), *b = half1.pixel(x, y);
+      const float* darker = luminance({a[0], a[1], a[2]}) < luminance({b[0], b[1], b[2]}) ? a : b;
+      const auto likely = likely_value(sums, x, y, {to[0], to[1], to[2]});
+      for (size_t c = 0; c < 3; ++c) {
+        to[c] = std::max(static_cast<float>(likely[c]), darker[c]);
+      }
     }
   }
   return result;

@@ -7,12 +7,13 @@
 
 namespace pssmlt {
 
-// Per channel: the picture's own value where the two halves agree. The less they do, the more it
-// gives way: if it lies above the mean around it, to the larger of that mean and the smaller half
-// (a firefly, unless both halves are bright), if it lies below, to half the way to that mean. The
-// mean is over a window of 7 x 7 pixels, and of 31 x 31 where the small one knows little. All
-// images have three channels and one size; the halves are independent estimates of the picture.
-// Result in the picture's order and units.
+// Means over square windows around each pixel that grow until they are known well enough, the
+// pixel itself alone where its halves agree. A window that contradicts a smaller one (their
+// confidence intervals do not meet, an edge) is not taken: intersection of confidence intervals,
+// Katkovnik 1999, "A new method for varying adaptive bandwidth selection". Never below
+// the darker half's value, which only what is really bright can raise. All images have three
+// channels and one size; the halves are independent estimates of the picture. Result in the
+// picture's order and units.
 Image likely_values(const Image& picture, const Image& half0, const Image& half1);
 
 }  // namespace pssmlt

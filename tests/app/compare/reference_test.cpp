@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "app/compare/session_racer.h"
 #include "app/metrics/metrics.h"
+#include "core/base/math.h"
 #include "tests/app/compare/small_room.h"
 
 namespace pssmlt::compare {
@@ -55,24 +57,66 @@ Half share(const LoadedScene& scene, const std::string& technique, uint64_t seed
   return {t.name, racer.session().result(false), racer.session().group_blocks()};
 }
 
+// A share whose halves have normal errors of this deviation around 1.
+Half noisy_share(const std::string& name, unsigned seed, float deviation) {
+  std::mt19937 random(seed);
+  std::normal_distribution<float> error(1.f, deviation * std::sqrt(2.f));
+  Half share{name, {}, {}};
+  RenderResult& r = share.result;
+  r.image = r.variance = r.half[0] = r.half[1] = Image(64, 48, 3);
+  for (size_t i = 0; i < r.image.data.size(); ++i) {
+    for (Image& half : r.half) half.data[i] = error(random);
+    r.image.data[i] = 0.5f * (r.half[0].data[i] + r.half[1].data[i]);
+    r.variance.data[i] = 0.25f * sqr(r.half[0].data[i] - r.half[1].data[i]);
+  }
+  return share;
+}
+
+// The weights follow from the pictures: r = w a + (1 - w) b. Each estimated variance is a mean of
+// n = 9216 squares of normal numbers, relative deviation sqrt(2 / n), so that the logarithm of the
+// weights' ratio has the deviation 2 / sqrt(n) = 0.021. The limit is five times that (false alarm
+// 6e-7).
 TEST(Combine, WeighsByVariance) {
-  const test::Folder folder;
-  const LoadedScene scene = test::load_small(folder);
-  const Half few = share(scene, "independent(path)", 1, 32);
-  const Half many = share(scene, "independent(path)", 2, 128);
-  const Reference r = combine(few, many);
-  EXPECT_FALSE(r.agreement->biased) << r.agreement->text;
-  // The samples' ratio is 4, log 1.39, but variances of so few skewed pixels tell it poorly: over
-  // 16 pairs of seeds the logarithm's mean is 0.87, its deviation 0.46. With these fixed seeds the
-  // limit is no statistical test; it tells from equal weights (log 0) and exchanged ones alone.
+  const Half noisy = noisy_share("noisy", 1, 0.2f), calm = noisy_share("calm", 2, 0.1f);
+  const Reference r = combine(noisy, calm);
   const auto distance = [&](const Image& a) {
     double sum = 0.0;
     for (size_t i = 0; i < a.data.size(); ++i)
       sum += std::fabs(double{a.data[i]} - double{r.image.data[i]});
     return sum;
   };
-  const double ratio = distance(few.result.image) / distance(many.result.image);
-  EXPECT_NEAR(std::log(ratio), std::log(4.0), 0.8);
+  const double ratio = distance(noisy.result.image) / distance(calm.result.image);
+  EXPECT_NEAR(std::log(ratio), std::log(4.0), 5 * 0.021);
+}
+
+// One in 500 values of the noisy share is a spike of 500: variance 250 (the halves' each 500), the
+// calm one's 0.01. Weighed by their own values the spikes would seem to be light.
+TEST(Combine, DoesNotTakeSpikesForLight) {
+  Half spiky = noisy_share("spiky", 1, 0.1f);
+  const Half calm = noisy_share("calm", 2, 0.1f);
+  std::mt19937 random(3);
+  std::bernoulli_distribution spike(1.0 / 500.0);
+  RenderResult& r = spiky.result;
+  for (size_t i = 0; i < r.image.data.size(); ++i) {
+    for (Image& half : r.half) half.data[i] = spike(random) ? 500.f : 0.f;
+    r.image.data[i] = 0.5f * (r.half[0].data[i] + r.half[1].data[i]);
+    r.variance.data[i] = 0.25f * sqr(r.half[0].data[i] - r.half[1].data[i]);
+  }
+  const Reference both = combine(spiky, calm);
+  double weight = 0.0;  // of the spiky share: where it has a spike, that times its height is added
+  for (size_t i = 0; i < r.image.data.size(); ++i) {
+    if (r.image.data[i] > 100.f)
+      weight = std::max(weight, double{both.image.data[i]} / double{r.image.data[i]});
+  }
+  EXPECT_LT(weight, 0.01);
+}
+
+TEST(Combine, HasAFloorAndAnErrorOfTheMean) {
+  const test::Folder folder;
+  const LoadedScene scene = test::load_small(folder);
+  const Reference r =
+      combine(share(scene, "independent(path)", 1, 32), share(scene, "independent(path)", 2, 128));
+  EXPECT_FALSE(r.agreement->biased) << r.agreement->text;
   for (const Number& f : r.floor) EXPECT_GT(f.value_or(0.0), 0.0);
   EXPECT_GT(r.mean_error.value_or(0.0), 0.0);
 }
