@@ -63,16 +63,7 @@ void add_output_options(CLI::App& app, RenderOptions& o, RawOptions& raw) {
 
 void add_view_options(CLI::App& app, RenderOptions& o) {
   ViewOptions& v = o.view_while;
-  const auto live =
-      app.add_flag("--live", v.live, "serve a page that shows the render while it runs");
-  app.add_option("--port", v.port, "port of the page (any that is free)")
-      ->check(CLI::Range(1, 65535))
-      ->needs(live);
-  app.add_option("--live-address", v.address, "numeric address to serve the page at (127.0.0.1)")
-      ->needs(live);
-  app.add_flag("--live-public", v.allow_public,
-               "allow an address that other machines reach; who reaches it may watch and stop")
-      ->needs(live);
+  const auto live = add_live_options(app, v.page, "the render");
   const auto display =
       app.add_option("--display", v.display, "show the picture in the viewer tev at host:port");
   for (const char* instead : {"--pixel", "--replay"}) {

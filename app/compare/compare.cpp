@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/compare/compare_view.h"
 #include "app/compare/machine.h"
 #include "app/compare/reference_cache.h"
 #include "app/compare/run_store.h"
@@ -69,6 +70,7 @@ class Compare {
  public:
   explicit Compare(CompareOptions options)
       : o_(std::move(options)),
+        view_(o_, reports_, stop_requested()),
         identity_(check_scenes(o_)),
         writer_(o_.output),
         store_(o_.output, identity_, o_.resume),
@@ -77,25 +79,27 @@ class Compare {
 
  private:
   void compare_scene(int index);
-  std::optional<Reference> find_reference(const SceneRequest& request, const LoadedScene& scene);
+  std::optional<Reference> find_reference(int index, const LoadedScene& scene);
   void describe(int index, const LoadedScene& scene, Reference reference);
   void run_all(int index, const LoadedScene& scene, const Reference& reference);
   void write(const std::string& why_partial);
   static bool stopped() { return stop_requested().load(std::memory_order_relaxed); }
 
   CompareOptions o_;
+  std::vector<SceneReport> reports_;
+  CompareView view_;
   json identity_;
   ReportWriter writer_;
   RunStore store_;
   RunDisplay display_;
-  std::vector<SceneReport> reports_;
 };
 
-std::optional<Reference> Compare::find_reference(const SceneRequest& request,
-                                                 const LoadedScene& scene) {
+std::optional<Reference> Compare::find_reference(int index, const LoadedScene& scene) {
+  const SceneRequest& request = o_.scenes[static_cast<size_t>(index)];
   if (!request.reference.empty()) {
     return read_reference(request.reference, scene.built.raster_map->frame().crop_size());
   }
+  view_.show_state("reference", index);
   ReferenceRequest wanted;
   wanted.techniques = o_.reference_techniques;
   wanted.seconds = o_.reference_seconds;
@@ -104,6 +108,7 @@ std::optional<Reference> Compare::find_reference(const SceneRequest& request,
   wanted.stop = &stop_requested();
   wanted.progress = [&](double seconds) {
     display_.show_reference(request.name, seconds, o_.reference_seconds);
+    view_.show_reference(seconds, o_.reference_seconds);
   };
   std::optional<Reference> reference = make_reference(scene, request.build, wanted);
   display_.clear();
@@ -136,6 +141,7 @@ void Compare::describe(int index, const LoadedScene& scene, Reference reference)
   writer_.add_image(s.reference_image, reference.image, ReportWriter::Precision::exact);
   reference.image = reference.half[0] = reference.half[1] = {};
   s.reference = std::move(reference);
+  view_.results_changed();
 }
 
 void Compare::run_all(int index, const LoadedScene& scene, const Reference& reference) {
@@ -147,23 +153,28 @@ void Compare::run_all(int index, const LoadedScene& scene, const Reference& refe
     bool cut = false;
     if (!records) {
       const auto* first = s.runs.empty() ? nullptr : &s.runs.front();
-      records = contest.run(
-          run, first, stop_requested(), [this](const RunView& v) { display_.show(v); }, cut);
+      const auto show = [this](const RunView& v) {
+        display_.show(v);
+        view_.show_run(v);
+      };
+      records = contest.run(run, first, stop_requested(), show, cut);
       display_.clear();
       if (!cut) store_.save(index, run, hash, *records);
     }
     // A run that was cut is shown only where there is nothing else.
     if (!cut || s.runs.empty()) s.runs.push_back(std::move(*records));
     s.result = analyse(s.runs, s.reference.floor, o_.seconds);
+    view_.results_changed();
     if (!stopped()) write("the comparison is still running, or was killed");
   }
 }
 
 void Compare::compare_scene(int index) {
   const SceneRequest& request = o_.scenes[static_cast<size_t>(index)];
+  view_.show_state("loading", index);
   const LoadedScene scene = load_scene(request, o_.techniques.front());
   log_info(fmt::format("{}: loaded in {:.3g} s", request.name, scene.load_seconds));
-  const std::optional<Reference> reference = find_reference(request, scene);
+  const std::optional<Reference> reference = find_reference(index, scene);
   if (!reference) return;  // interrupted
   describe(index, scene, *reference);
   run_all(index, scene, *reference);
@@ -194,7 +205,9 @@ int Compare::run() {
   if (!o_.quiet) std::fputs(suite_table(o_, reports_).c_str(), stdout);
   if (!why.empty()) log_warning(why + "; --resume continues");
   log_info("wrote " + (fs::path(o_.output) / "index.html").string());
-  return why.empty() ? 0 : exit_interrupted;
+  const int code = why.empty() ? 0 : exit_interrupted;
+  view_.finish(code, why);
+  return code;
 }
 
 }  // namespace

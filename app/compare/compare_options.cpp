@@ -126,6 +126,7 @@ std::optional<CompareOptions> parse_compare_options(const Arguments& arguments) 
   add_technique_options(app, raw);
   add_scene_options(app, o, raw, build);
   add_run_options(app, o, raw);
+  add_live_options(app, o.page, "the report");
   if (!parse_arguments(app, arguments)) return std::nullopt;
   o.seconds = parse_duration(raw.time, o.notes);
   o.slice = parse_duration(raw.slice, o.notes);

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/compare/scene_job.h"
+#include "app/live/live_options.h"
 
 namespace pssmlt::compare {
 
@@ -22,6 +23,7 @@ struct CompareOptions {
   uint64_t seed = 0;    // of the first run; the others' follow
   std::string output;   // the report's folder
   bool resume = false, quiet = false, verbose = false;
+  LiveOptions page;                // that follows it
   std::vector<std::string> notes;  // for the log
   std::string command;             // repeats the comparison, quoted for a shell
 };

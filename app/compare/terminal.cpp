@@ -11,6 +11,7 @@
 
 #include "app/metrics/metrics.h"
 #include "app/progress.h"
+#include "core/base/log.h"
 
 namespace pssmlt::compare {
 namespace {
@@ -77,7 +78,18 @@ std::vector<std::string> run_lines(const RunView& view) {
 RunDisplay::RunDisplay(bool shown)
     : shown_(shown),
       terminal_(isatty(STDERR_FILENO) != 0),
-      next_(now() + (terminal_ ? 0.0 : line_interval)) {}
+      next_(now() + (terminal_ ? 0.0 : line_interval)) {
+  print_log_by([this](const std::function<void()>& print_line) {
+    const std::lock_guard lock(mutex_);
+    erase();
+    print_line();
+  });
+}
+
+RunDisplay::~RunDisplay() {
+  print_log_by({});
+  clear();
+}
 
 bool RunDisplay::due() {
   if (!shown_ || now() < next_) return false;
@@ -96,13 +108,19 @@ void RunDisplay::show_reference(const std::string& scene, double seconds, double
 }
 
 void RunDisplay::print(const std::vector<std::string>& lines) {
-  clear();
+  const std::lock_guard lock(mutex_);
+  erase();
   for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
   if (terminal_) on_screen_ = lines.size();
   std::fflush(stderr);
 }
 
 void RunDisplay::clear() {
+  const std::lock_guard lock(mutex_);
+  erase();
+}
+
+void RunDisplay::erase() {
   if (on_screen_ > 0) std::fprintf(stderr, "\033[%zuA\033[J", on_screen_);
   on_screen_ = 0;
 }

@@ -1,6 +1,7 @@
 // What `pssmlt compare` shows while it runs and at the end.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,13 @@ namespace pssmlt::compare {
 // `width` values, a dot for one that has no logarithm.
 std::string sparkline(const std::vector<double>& values, double low, double high, size_t width);
 
-// One line a technique with its error's sparkline so far. On a terminal the lines are overwritten;
-// elsewhere they are printed every 10 seconds.
+// One line a technique with its error's sparkline so far. On a terminal the lines are overwritten,
+// and cleared when the log has something to say; elsewhere they are printed every 10 seconds. One
+// at a time.
 class RunDisplay {
  public:
   explicit RunDisplay(bool shown);
-  ~RunDisplay() { clear(); }
+  ~RunDisplay();
   RunDisplay(const RunDisplay&) = delete;
   RunDisplay& operator=(const RunDisplay&) = delete;
   void show(const RunView& view);
@@ -28,8 +30,10 @@ class RunDisplay {
  private:
   bool due();
   void print(const std::vector<std::string>& lines);
+  void erase();  // with the lock
   bool shown_, terminal_;
   double next_ = 0.0;     // when lines are due [s of a steady clock]
+  std::mutex mutex_;      // of what is on the screen: other threads log, too
   size_t on_screen_ = 0;  // lines to overwrite
 };
 

@@ -46,7 +46,7 @@ HttpReply not_allowed(const std::string& allowed) {
 
 struct LiveServer::Impl {
   Impl(LiveSettings s, std::atomic<bool>& stop);
-  void publish(LiveFile file);
+  void publish(PageFile file);
   HttpReply answer(const HttpRequest& request);
   HttpReply route(const HttpRequest& request, const std::string& path, const std::string& query);
   HttpReply send_image(const std::string& id, uint64_t after);
@@ -63,7 +63,7 @@ struct LiveServer::Impl {
 
 LiveServer::Impl::Impl(LiveSettings s, std::atomic<bool>& stop_flag)
     : settings(std::move(s)), address(checked_address(settings)), stop(stop_flag) {
-  for (LiveFile& file : settings.files) publish(std::move(file));
+  for (PageFile& file : settings.files) publish(std::move(file));
   void* const symbol = Registry::instance().module("live_server", http_server_symbol);
   const auto start = reinterpret_cast<StartHttpServer*>(symbol);
   start(
@@ -73,8 +73,9 @@ LiveServer::Impl::Impl(LiveSettings s, std::atomic<bool>& stop_flag)
   ready = true;
 }
 
-void LiveServer::Impl::publish(LiveFile file) {
-  state.set_file(file.path, {file.type, std::make_shared<const std::string>(std::move(file.text))});
+void LiveServer::Impl::publish(PageFile file) {
+  const auto text = std::make_shared<const std::string>(std::move(file.text));
+  state.set_file(file.path, {file.type, [text] { return text; }});
 }
 
 HttpReply LiveServer::Impl::answer(const HttpRequest& request) {
@@ -98,7 +99,7 @@ HttpReply LiveServer::Impl::route(const HttpRequest& request, const std::string&
   const bool get = request.method == "GET", head = request.method == "HEAD";
   if (path == "/stop") return request.method == "POST" ? stop_run(request) : not_allowed("POST");
   const PublishedFile file = state.file(path);
-  const bool known = path == "/events" || path.starts_with(image_prefix) || file.text;
+  const bool known = path == "/events" || path.starts_with(image_prefix) || file.read;
   if (!known) return plain_reply(404, "there is nothing here");
   if (!get && !head) return not_allowed("GET, HEAD");
   HttpReply reply;
@@ -111,7 +112,7 @@ HttpReply LiveServer::Impl::route(const HttpRequest& request, const std::string&
     return send_image(path.substr(image_prefix.size()), version_after(query));
   }
   reply.type = file.type;
-  reply.body = file.text;
+  reply.body = file.read();
   return reply;
 }
 
@@ -153,7 +154,14 @@ std::string LiveServer::url() const {
   return "http://" + host + ":" + std::to_string(port()) + "/";
 }
 
-void LiveServer::publish_file(LiveFile file) { impl_->publish(std::move(file)); }
+void LiveServer::publish_file(PageFile file) { impl_->publish(std::move(file)); }
+
+void LiveServer::publish_file(const std::string& path, const std::string& type,
+                              std::function<std::string()> read) {
+  impl_->state.set_file(path, {type, [read = std::move(read)] {
+                                 return std::make_shared<const std::string>(read());
+                               }});
+}
 
 void LiveServer::publish(const nlohmann::json& status) {
   // Names of files need not be UTF-8.

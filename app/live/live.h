@@ -11,20 +11,15 @@
 #include <string_view>
 #include <vector>
 
-namespace pssmlt {
+#include "app/page_file.h"
 
-// A file of the page. Besides images and events only these are served.
-struct LiveFile {
-  std::string path;  // "/live.js"; "/" is the page itself
-  std::string type;  // "text/javascript; charset=utf-8"
-  std::string text;
-};
+namespace pssmlt {
 
 struct LiveSettings {
   std::string address = "127.0.0.1";  // numeric, or localhost
   int port = 0;                       // 0: any that is free
   bool allow_public = false;          // address may be another than loopback
-  std::vector<LiveFile> files;
+  std::vector<PageFile> files;        // besides images and events only files are served
   // Content-Security-Policy of all replies: what the page may load and from where.
   std::string content_policy =
       "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; "
@@ -46,7 +41,10 @@ class LiveServer {
 
   // A file more, or instead of the one at this path. May be called from any thread, as the others
   // below.
-  void publish_file(LiveFile file);
+  void publish_file(PageFile file);
+  // The same, read anew for every request, on a thread of the server: nothing of it is kept.
+  void publish_file(const std::string& path, const std::string& type,
+                    std::function<std::string()> read);
   // The event "status" with these data.
   void publish(const nlohmann::json& status);
   // /image/<id> is this from now on, and the event "image" says so. id: letters, digits, -, _,

@@ -31,7 +31,7 @@ class LiveImage {
 // A file that is served as it is.
 struct PublishedFile {
   std::string type;
-  std::shared_ptr<const std::string> text;  // null: there is no such file
+  std::function<std::shared_ptr<const std::string>()> read;  // empty: there is no such file
 };
 
 class LiveState {

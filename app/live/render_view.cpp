@@ -1,8 +1,6 @@
 #include "app/live/render_view.h"
 
 #include "app/live/half_image.h"
-#include "app/live/page_files.h"
-#include "core/base/log.h"
 
 namespace pssmlt {
 namespace {
@@ -36,15 +34,7 @@ RenderView::RenderView(const ViewOptions& options, const std::string& scene,
   if (!options.display.empty()) {
     display_ = std::make_unique<TevDisplay>(options.display, scene + " (pssmlt)");
   }
-  if (!options.live) return;
-  LiveSettings settings;
-  settings.address = options.address;
-  settings.port = options.port;
-  settings.allow_public = options.allow_public;
-  settings.files = live_page_files();
-  server_ = std::make_unique<LiveServer>(std::move(settings), stop);
-  publish();
-  log_info("live: " + server_->url());
+  server_ = serve(options.page, live_page_files(), status_, stop);
 }
 
 void RenderView::publish() {

@@ -7,17 +7,14 @@
 #include <optional>
 #include <string>
 
-#include "app/live/live.h"
+#include "app/live/live_options.h"
 #include "app/live/tev.h"
 #include "core/render/render.h"
 
 namespace pssmlt {
 
 struct ViewOptions {
-  bool live = false;
-  int port = 0;  // 0: any that is free
-  std::string address = "127.0.0.1";
-  bool allow_public = false;
+  LiveOptions page;
   std::string display;  // "host:port" of tev; "": none
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <fstream>
@@ -88,10 +89,12 @@ std::string report_id(const std::string& text) {
   return fmt::format("{}-{:016x}", id, hash_of(text));
 }
 
+std::string report_page_data(const json& data) { return dump(for_page(data), -1); }
+
 std::string report_page(const json& data) {
   // "<" is legal in JSON's strings only; escaped, no "</script>" or "<!--" can end the element.
   std::string text;
-  for (const char c : dump(for_page(data), -1)) {
+  for (const char c : report_page_data(data)) {
     if (c == '<') {
       text += "\\u003c";
     } else {
@@ -101,6 +104,18 @@ std::string report_page(const json& data) {
   const std::string_view page = page_text(), mark = page_data_mark;
   const size_t at = page.find(mark);
   return std::string(page.substr(0, at)) + text + std::string(page.substr(at + mark.size()));
+}
+
+std::vector<PageFile> report_live_files() {
+  std::vector<PageFile> files = report_page_files();
+  std::string& page = std::ranges::find(files, "/", &PageFile::path)->text;
+  const auto put = [&page](std::string_view at, const std::string& text, size_t instead = 0) {
+    page.replace(page.find(at), instead, text);
+  };
+  put(page_data_mark, "{}", page_data_mark.size());
+  put("</head>", "<link rel=\"stylesheet\" href=\"live.css\">\n");
+  put("</body>", "<script src=\"live.js\"></script>\n");
+  return files;
 }
 
 ReportWriter::ReportWriter(fs::path folder) : folder_(std::move(folder)) {

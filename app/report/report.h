@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
+#include "app/page_file.h"
 #include "app/report/image_pack.h"
 #include "core/image/image.h"
 
@@ -36,7 +38,12 @@ class ReportWriter {
 // or more than 80 bytes, gets a hash of the whole text so that ids stay distinct.
 std::string report_id(const std::string& text);
 
-// index.html for these data: what finish() writes and the live server sends.
+// What the page shows of the data, as JSON: all but the runs' "statistics".
+std::string report_page_data(const nlohmann::json& data);
+// index.html for these data, which finish() writes.
 std::string report_page(const nlohmann::json& data);
+// The page for a server: its parts as files of their own, so that a content policy need not allow
+// what stands in the page, no data, and live.js, which asks for them ("/data.json", "/events").
+std::vector<PageFile> report_live_files();
 
 }  // namespace pssmlt

@@ -3,6 +3,9 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <mutex>
+#include <utility>
+
 namespace pssmlt {
 namespace {
 
@@ -18,7 +21,26 @@ spdlog::logger& logger() {
   return *made;
 }
 
+std::mutex printing;  // and of `around`
+std::function<void(const std::function<void()>&)> around;
+
+void log(spdlog::level::level_enum level, const std::string& message) {
+  if (!logger().should_log(level)) return;
+  const std::lock_guard lock(printing);
+  const auto print = [&] { logger().log(level, message); };
+  if (around) {
+    around(print);
+  } else {
+    print();
+  }
+}
+
 }  // namespace
+
+void print_log_by(std::function<void(const std::function<void()>& print)> printer) {
+  const std::lock_guard lock(printing);
+  around = std::move(printer);
+}
 
 void set_log_level(LogLevel level) {
   logger().set_level(level == LogLevel::quiet     ? spdlog::level::warn
@@ -26,8 +48,8 @@ void set_log_level(LogLevel level) {
                                                   : spdlog::level::info);
 }
 
-void log_debug(const std::string& message) { logger().debug(message); }
-void log_info(const std::string& message) { logger().info(message); }
-void log_warning(const std::string& message) { logger().warn("warning: " + message); }
+void log_debug(const std::string& message) { log(spdlog::level::debug, message); }
+void log_info(const std::string& message) { log(spdlog::level::info, message); }
+void log_warning(const std::string& message) { log(spdlog::level::warn, "warning: " + message); }
 
 }  // namespace pssmlt

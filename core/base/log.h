@@ -1,6 +1,7 @@
 // The log: spdlog behind three functions, so that few files pay for its headers.
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace pssmlt {
@@ -13,5 +14,8 @@ void log_debug(const std::string& message);
 void log_info(const std::string& message);
 // Something that may spoil the picture.
 void log_warning(const std::string& message);
+// For what else stands on the terminal: every line that is shown is printed by around(print), on
+// the thread that logs, one at a time; around must not log. Empty: no longer.
+void print_log_by(std::function<void(const std::function<void()>& print)> around);
 
 }  // namespace pssmlt

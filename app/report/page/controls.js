@@ -122,9 +122,9 @@ const range = (id, min, max, step, oninput) => make(
     R.byId('zoom-text').textContent = `${R.number(s.view.scale, 2)} ×`;
   };
   R.fillChoices = function () {
-    const options = () => [...Array(R.shownCount() + 1).keys()]
-                              .map((n) => (n + 1) % (R.shownCount() + 1))
-                              .map((n) => R.make('option', {value: n}, `${n}  ${R.shownName(n)}`));
-    for (const id of ['a', 'b']) R.byId(id).replaceChildren(...options());
+    const entries = [...Array(R.shownCount() + 1).keys()]
+                        .map((n) => (n + 1) % (R.shownCount() + 1))
+                        .map((n) => [n, `${n}  ${R.shownName(n)}`]);
+    for (const id of ['a', 'b']) R.fillSelect(R.byId(id), entries);
   };
 })(window.pssmltReport);

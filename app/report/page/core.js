@@ -8,7 +8,7 @@
 //   pssmltReport.forget(id)       the image has changed at its source: load it when it is next
 //   used. pssmltReport.imageUrl(id)     where the file of an image is; may be replaced.
 //   pssmltReport.on("key", f)     calls f after the state's key changed (list of keys: below).
-// The element #live is empty and hidden, for controls of a live server.
+// The element #live is empty and hidden, for controls of a live server (live.js).
 'use strict';
 window.pssmltReport = {};
 (function(R) {

@@ -19,6 +19,12 @@ R.curvePoints = function(result, metric) {
       .filter((p) => known(p.x) && p.x > 0 && known(p.y) && p.y > 0);
 };
 
+// Those of a run that goes on and is not part of the curves yet.
+R.runningPoints = (result, metric) =>
+    (result.running ?? [])
+        .map((p) => ({x: p.seconds, y: p.metrics?.[metric]}))
+        .filter((p) => known(p.x) && p.x > 0 && known(p.y) && p.y > 0);
+
 // The line of the fitted slope through the centre of the points that entered the fit.
 function fitted(points, slope) {
   const used = points.filter((p) => !p.near);
@@ -69,6 +75,9 @@ function setsOf(index, result, metric, floorOfAxis, small) {
   const slope = R.state.fits ? fitted(points, result.slope?.[metric]) : [];
   if (slope.length)
     sets.push({...line, kind: 'fit', data: slope, borderWidth: 1.2, borderDash: [2, 2]});
+  const running = R.runningPoints(result, metric);
+  if (running.length)
+    sets.push({...line, kind: 'running', data: running, borderWidth: 1, pointRadius: 1.5});
   return sets;
 }
 
@@ -85,10 +94,11 @@ function guideOf(all, metric) {
 R.curveSets = function(scene, metric, small) {
   const shown = R.results(scene).filter(([, t]) => !R.state.hidden.has(t.name));
   const all = shown.map(([, t]) => R.curvePoints(t, metric));
+  const points = all.concat(shown.map(([, t]) => R.runningPoints(t, metric))).flat();
   const floor = scene.reference?.floor?.[metric];
-  const x = R.around(all.flat().map((p) => p.x));
+  const x = R.around(points.map((p) => p.x));
   const bands = R.state.bands ? all.flat().flatMap((p) => [p.low, p.high]) : [];
-  const y = R.around(all.flat().map((p) => p.y).concat(bands, floor > 0 ? [floor] : []));
+  const y = R.around(points.map((p) => p.y).concat(bands, floor > 0 ? [floor] : []));
   const sets = shown.flatMap(([index, t]) => setsOf(index, t, metric, y[0], small));
   const grey = {
     borderColor: R.css('--faint'),

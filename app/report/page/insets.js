@@ -4,7 +4,7 @@
 (function(R) {
 const count = 3;
 R.insetName = (i) => 'abc'[i];
-let round = 0, placed = null;
+let round = 0, placed = null, scene = null;
 let cells = [];  // [{n, inset, canvas}]
 
 // The mean over a block of |luminance - reference| / (reference + offset), each pixel at most 1, so
@@ -56,7 +56,9 @@ R.placeInsets = async function() {
   const entries = [...Array(R.shownCount() + 1).keys()].map((n) => R.lastSnapshot(n));
   // New data about the same pictures: only names may have changed.
   const pictures = [R.state.scene, ...entries.map((e) => e?.image)].join(' ');
-  if (pictures !== placed) R.set({insets: []});
+  // Places of the scene's earlier pictures stay until there are better ones.
+  if (scene !== R.state.scene) R.set({insets: []});
+  scene = R.state.scene;
   build();
   if (pictures === placed) return;
   placed = null;
@@ -64,12 +66,16 @@ R.placeInsets = async function() {
     note.textContent = 'Without a reference no places can be chosen.';
     return;
   }
-  note.textContent = 'Looking for them …';
+  if (!R.state.insets.length) note.textContent = 'Looking for them …';
   const [reference, ...images] =
       await Promise.all(entries.map((e) => (e ? R.loadImage(e.image).catch(() => null) : null)));
   if (mine !== round) return;
   if (!reference) {
     note.textContent = 'The reference’s picture is missing.';
+    return;
+  }
+  if (!images.some(Boolean)) {
+    note.textContent = 'No technique has a picture yet.';
     return;
   }
   const insets = R.findInsets(images.filter(Boolean), reference);

@@ -27,10 +27,12 @@ function legend() {
 function caption() {
   const scene = R.scene(), parts = [];
   const floor = scene.reference?.floor?.[R.state.metric];
-  const runs = R.data.settings?.runs;
+  // Fewer than were asked for while the comparison runs, or where it was cut.
+  const runs = R.results()[0]?.[1].runs?.length ?? R.data.settings?.runs;
   parts.push(
-      R.known(runs) && runs > 1 ? `Mean of ${runs} runs; bands: 95 % intervals of the mean.` :
-                                  'One run: no interval is known.');
+      !R.known(runs) || runs === 1 ? 'One run: no interval is known.' :
+          runs > 1                 ? `Mean of ${runs} runs; bands: 95 % intervals of the mean.` :
+                                     'No run has a point yet.');
   parts.push(
       R.known(floor) && floor > 0 ?
           `Dotted line: the reference’s own error, ${

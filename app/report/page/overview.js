@@ -58,8 +58,15 @@ function title() {
   ].filter(Boolean).join(', ');
 }
 
-function options(select, entries, chosen) {
+// The same entries stay: a list that is open would be closed.
+R.fillSelect = function(select, entries) {
+  const now = JSON.stringify(entries);
+  if (select.entries === now) return;
+  select.entries = now;
   select.replaceChildren(...entries.map(([value, text]) => R.make('option', {value}, text)));
+};
+function options(select, entries, chosen) {
+  R.fillSelect(select, entries);
   select.value = String(chosen);
 }
 function choices() {

@@ -1,9 +1,16 @@
 // Lines and tables of made-up runs.
 #include "app/compare/terminal.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
 
 #include "app/metrics/metrics.h"
+#include "core/base/log.h"
 
 namespace pssmlt::compare {
 namespace {
@@ -69,6 +76,46 @@ TEST(RunLines, OneATechnique) {
   EXPECT_EQ(lines[0], "room: run 2 of 4, 25 %");
   EXPECT_NE(lines[1].find("█▆▃▁"), std::string::npos) << lines[1];
   EXPECT_NE(lines[2].find("no picture yet"), std::string::npos);
+}
+
+// What a terminal gets from a program that shows a run and then logs a line.
+std::string on_a_terminal() {
+  const int master = posix_openpt(O_RDWR | O_NOCTTY);
+  if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) return "";
+  const int slave = open(ptsname(master), O_RDWR | O_NOCTTY);
+  const pid_t pid = fork();
+  if (pid == 0) {
+    dup2(slave, STDERR_FILENO);
+    const CompareOptions o = options();
+    const RunRecord one = record(1.0);
+    const std::string name = "room";
+    RunDisplay display(true);
+    display.show({.scene = &name,
+                  .run = 0,
+                  .runs = 1,
+                  .seconds = 8.0,
+                  .techniques = &o.techniques,
+                  .records = {&one, &one},
+                  .elapsed = {4.0, 4.0}});
+    log_info("a line");
+    _exit(0);
+  }
+  waitpid(pid, nullptr, 0);
+  std::string text(4096, '\0');  // the terminal holds as much until it is read
+  const ssize_t size = read(master, text.data(), text.size());
+  text.resize(static_cast<size_t>(std::max<ssize_t>(size, 0)));
+  close(slave);
+  close(master);
+  return text;
+}
+
+TEST(RunDisplay, IsClearedBeforeTheLogSpeaks) {
+  const std::string text = on_a_terminal();
+  if (text.empty()) GTEST_SKIP() << "there are no terminals here";
+  const size_t run = text.find("room: run 1"), cleared = text.find("\033[3A\033[J");
+  EXPECT_LT(run, cleared) << text;
+  EXPECT_LT(cleared, text.find("a line")) << text;
+  EXPECT_NE(text.find("a line"), std::string::npos) << text;
 }
 
 TEST(Tables, SayWhatWasFound) {

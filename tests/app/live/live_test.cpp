@@ -53,6 +53,21 @@ TEST_F(Live, FilesComeLater) {
   EXPECT_EQ(body_of(get("/images/a.js")), "two");
 }
 
+TEST_F(Live, FilesMayBeReadWhenTheyAreAskedFor) {
+  std::atomic<int> read{0};
+  server_.publish_file("/images/a.js", "text/javascript", [&] {
+    if (++read == 3) throw Failure("gone");
+    return "reading " + std::to_string(read);
+  });
+  EXPECT_EQ(read, 0) << "nobody has asked";
+  EXPECT_EQ(body_of(get("/images/a.js")), "reading 1");
+  EXPECT_EQ(body_of(get("/images/a.js?2")), "reading 2");
+  const std::string gone = get("/images/a.js");
+  EXPECT_EQ(status_of(gone), 500);
+  EXPECT_EQ(gone.find("gone"), std::string::npos) << "reasons may name paths";
+  EXPECT_EQ(body_of(get("/images/a.js")), "reading 4");
+}
+
 TEST_F(Live, HeadHasNoBody) {
   for (const char* target : {"/", "/events"}) {
     const std::string reply = ask(port(), request(port(), std::string("HEAD ") + target));

@@ -151,4 +151,27 @@ TEST(Report, ThePageNeedsNothingFromElsewhere) {
   EXPECT_EQ(page.find(pssmlt::page_data_mark, mark + 1), std::string::npos);
 }
 
+// On disk nothing looks for a server; from a server nothing stands in the page that a strict
+// content policy would refuse.
+TEST(Report, OnlyAServersPageIsLive) {
+  EXPECT_EQ(pssmlt::page_text().find("EventSource"), std::string::npos);
+  const std::vector<pssmlt::PageFile> files = pssmlt::report_live_files();
+  const auto text = [&](const std::string& path) {
+    const auto file = std::ranges::find(files, path, &pssmlt::PageFile::path);
+    return file != files.end() ? file->text : "";
+  };
+  const std::string page = text("/");
+  EXPECT_EQ(json::parse(page.substr(page.find("{}"), 2)), json::object());
+  EXPECT_EQ(page.find(pssmlt::page_data_mark), std::string::npos);
+  for (const char* inline_code : {"<style", "style=", "<script>", "onclick"}) {
+    EXPECT_EQ(page.find(inline_code), std::string::npos) << inline_code;
+  }
+  EXPECT_LT(page.find("main.js"), page.find("live.js"));
+  EXPECT_NE(text("/live.js").find("EventSource"), std::string::npos);
+  for (const pssmlt::PageFile& file : files) {
+    if (file.path == "/") continue;
+    EXPECT_EQ(file.text.find("</script"), std::string::npos) << "ends its element on disk";
+  }
+}
+
 }  // namespace

@@ -6,7 +6,7 @@ import support
 
 support.start()
 try:
-    names = ["test_page", "test_pictures", "test_moving"]
+    names = ["test_page", "test_pictures", "test_moving", "test_live"]
     main = unittest.main(module=None, argv=sys.argv[:1] + (sys.argv[1:] or ["-v"] + names),
                          exit=False)
 finally:
