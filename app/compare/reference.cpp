@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "app/metrics/metrics.h"
-#include "core/render/likely_values.h"
+#include "core/base/math.h"
+#include "core/render/relative_denominators.h"
 
 namespace pssmlt::compare {
 namespace {
@@ -26,36 +27,40 @@ double mean(const Image& image) {
   return image.data.empty() ? 0.0 : sum / static_cast<double>(image.data.size());
 }
 
-// Relative variance of a technique's picture, b's included. `level`: the values that it is relative
-// to, the same for both techniques, since each one's own noise would flatter it. nullopt: too few
-// rounds to tell.
-Number relative_variance(const Half& h, const Image& level) {
-  const Image& variance = h.result.variance;
-  if (variance.data.empty()) return std::nullopt;
-  const double epsilon = relative_mse_epsilon * mean(level) * mean(level);
-  double sum = 0.0;
-  for (size_t i = 0; i < variance.data.size(); ++i) {
-    const double square = static_cast<double>(level.data[i]) * static_cast<double>(level.data[i]);
-    const double v = static_cast<double>(variance.data[i]) + h.blocks.common_variance * square;
-    if (square + epsilon > 0.0) sum += v / (square + epsilon);
-  }
-  return sum;
+// What variances are divided by to be relative: the same for both techniques, since each one's own
+// noise would flatter it. Of both pictures' mean.
+struct Level {
+  Image picture;
+  std::vector<double> denominators;
+};
+Level common_level(const RenderResult& a, const RenderResult& b) {
+  Level level{mix(a.image, 0.5, b.image, 0.5), {}};
+  const Image half[2] = {mix(a.half[0], 0.5, b.half[0], 0.5), mix(a.half[1], 0.5, b.half[1], 0.5)};
+  if (half[0].data.empty() || half[1].data.empty()) return level;
+  const double epsilon = relative_mse_epsilon * sqr(mean(level.picture));
+  level.denominators = relative_denominators(level.picture, half[0], half[1], epsilon);
+  return level;
 }
 
-// What the truth is likely to be, from both. A spike of the noisier one must not count as light
-// that is there, or its variance would be divided by itself.
-Image common_level(const RenderResult& a, const RenderResult& b) {
-  const Image picture = mix(a.image, 0.5, b.image, 0.5);
-  const Image half[2] = {mix(a.half[0], 0.5, b.half[0], 0.5), mix(a.half[1], 0.5, b.half[1], 0.5)};
-  if (half[0].data.empty() || half[1].data.empty()) return picture;
-  return likely_values(picture, half[0], half[1]);
+// Relative variance of a technique's picture, b's included. nullopt: too few rounds to tell.
+Number relative_variance(const Half& h, const Level& level) {
+  const Image& variance = h.result.variance;
+  if (variance.data.empty() || level.denominators.empty()) return std::nullopt;
+  double sum = 0.0;
+  for (size_t i = 0; i < variance.data.size(); ++i) {
+    if (!(level.denominators[i] > 0.0)) continue;
+    const double square = sqr(static_cast<double>(level.picture.data[i]));
+    sum += (static_cast<double>(variance.data[i]) + h.blocks.common_variance * square) /
+           level.denominators[i];
+  }
+  return sum;
 }
 
 // Weight of the first.
 double weight_of_first(const Half& a, const Half& b) {
   const bool a_black = mean(a.result.image) == 0.0, b_black = mean(b.result.image) == 0.0;
   if (a_black != b_black) return a_black ? 0.0 : 1.0;
-  const Image level = common_level(a.result, b.result);
+  const Level level = common_level(a.result, b.result);
   const Number va = relative_variance(a, level), vb = relative_variance(b, level);
   if (!va || !vb || !(*va + *vb > 0.0)) return 0.5;
   return *vb / (*va + *vb);

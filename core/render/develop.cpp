@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/render/likely_values.h"
+#include "core/render/relative_denominators.h"
 
 namespace pssmlt {
 namespace {
@@ -254,15 +254,14 @@ void Developer::estimate_pixels(ErrorEstimate& estimate) const {
   const double epsilon = relative_mse_epsilon * estimate.mean * estimate.mean;
   double energy = 0.0;
   const Image variances = variance();
-  const Image likely = likely_values(picture(), half(0), half(1));
+  const Image value = picture();
+  const std::vector<double> denominators = relative_denominators(value, half(0), half(1), epsilon);
   for (int p = 0; p < film_.pixels(); ++p) {
     double& cell = cells[static_cast<size_t>(chain ? grid.block(p) : p)];
     for (size_t c = 3 * static_cast<size_t>(p); c < 3 * static_cast<size_t>(p) + 3; ++c) {
-      const double square = sqr(static_cast<double>(likely.data[c]));
-      const double denominator = square + epsilon;
-      if (denominator <= 0.0) continue;
-      cell += static_cast<double>(variances.data[c]) / denominator;
-      energy += square / denominator;
+      if (denominators[c] <= 0.0) continue;
+      cell += static_cast<double>(variances.data[c]) / denominators[c];
+      energy += std::min(1.0, sqr(static_cast<double>(value.data[c])) / denominators[c]);
     }
   }
   const double count = 3.0 * film_.pixels();

@@ -9,8 +9,9 @@
 namespace pssmlt {
 
 // relMSE is the mean over pixels and channels of variance / (value^2 + epsilon), where value is
-// what the truth is likely to be (core/render/likely_values.h) and epsilon = relative_mse_epsilon *
-// (the picture's mean luminance)^2, so that it does not change with exposure.
+// what the truth is likely to be (core/render/relative_denominators.h) and epsilon =
+// relative_mse_epsilon * (the picture's mean luminance)^2, so that it does not change with
+// exposure.
 inline constexpr double relative_mse_epsilon = 0.01;
 // Fewer groups than this say nothing.
 inline constexpr int least_groups = 8;
