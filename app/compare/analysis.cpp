@@ -110,7 +110,8 @@ Interval calibration(const std::vector<RunRecord>& runs, const Number& floor, si
     };
     const auto last = std::find_if(run.points.rbegin(), run.points.rend(), usable);
     if (last == run.points.rend()) return {};
-    ratios.push_back(last->estimate / last->metrics[relmse]);
+    // The errors of the picture and of the reference are independent: their squares add up.
+    ratios.push_back(last->estimate / (last->metrics[relmse] - floor.value_or(0.0)));
   }
   return geometric_mean(ratios);
 }

@@ -41,8 +41,8 @@ std::vector<RunRecord> runs_of(const std::vector<std::vector<RunRecord>>& runs, 
 // first; none below floor / floor_share.
 std::vector<double> error_levels(const std::vector<const Curve*>& curves, const Number& floor);
 
-// Estimated over true relMSE at the last point of each run that has an estimate and is not near the
-// floor; geometric mean over runs.
+// Estimated over true relMSE, which is the measured one less the floor, at the last point of each
+// run that has an estimate and is not near the floor; geometric mean over runs.
 Interval calibration(const std::vector<RunRecord>& runs, const Number& floor, size_t relmse);
 
 }  // namespace pssmlt::compare

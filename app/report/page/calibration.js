@@ -1,13 +1,14 @@
 // The renderer's own estimate of its relative MSE against the true one.
 'use strict';
 (function(R) {
-// [{x: true, y: estimated, low, high, seconds}] over all runs.
-R.calibrationPoints = (result) =>
+// [{x: true, y: estimated, low, high, seconds}] over all runs. True is what is measured less the
+// reference's own error; points near that have none.
+R.calibrationPoints = (result, floor) =>
     (result.runs ?? [])
         .flatMap((run) => run.points ?? [])
-        .filter((p) => p.estimate?.known && p.metrics?.relmse > 0 && p.estimate.relmse > 0)
+        .filter((p) => p.estimate?.known && p.estimate.relmse > 0 && p.metrics?.relmse > 4 * floor)
         .map((p) => ({
-               x: p.metrics.relmse,
+               x: p.metrics.relmse - floor,
                y: p.estimate.relmse,
                low: p.estimate.low,
                high: p.estimate.high,
@@ -15,10 +16,10 @@ R.calibrationPoints = (result) =>
              }));
 
 function chart() {
-  const canvas = R.byId('calibration-chart');
+  const canvas = R.byId('calibration-chart'), floor = R.scene()?.reference?.floor?.relmse ?? 0;
   const shown = R.results()
                     .filter(([, t]) => !R.state.hidden.has(t.name))
-                    .map(([index, t]) => [index, t, R.calibrationPoints(t)]);
+                    .map(([index, t]) => [index, t, R.calibrationPoints(t, floor)]);
   const points = shown.flatMap(([, , p]) => p);
   R.byId('calibration').hidden =
       !points.length && !R.results().some(([, t]) => R.known(t.calibration?.ratio));
