@@ -49,7 +49,9 @@ Number relative_variance(const Half& h, const Level& level) {
   double sum = 0.0;
   for (size_t i = 0; i < variance.data.size(); ++i) {
     if (!(level.denominators[i] > 0.0)) continue;
-    const double square = sqr(static_cast<double>(level.picture.data[i]));
+    // As in the renderer's own estimate, a spike's square is not what the light is likely to be.
+    const double square =
+        std::min(level.denominators[i], sqr(static_cast<double>(level.picture.data[i])));
     sum += (static_cast<double>(variance.data[i]) + h.blocks.common_variance * square) /
            level.denominators[i];
   }
