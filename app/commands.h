@@ -15,6 +15,7 @@ int run_compare(const Arguments& arguments);
 int run_plugins(const Arguments& arguments);
 int run_info(const Arguments& arguments);
 int run_error(const Arguments& arguments);
+int run_convert(const Arguments& arguments);
 int run_merge(const Arguments& arguments);
 int run_version();
 

@@ -7,8 +7,9 @@
 #include "app/defaults.h"
 #include "app/parse_arguments.h"
 #include "app/progress.h"
+#include "app/read_scene.h"
+#include "core/image/texel_store.h"
 #include "core/path/path_expression.h"
-#include "core/scene/parser.h"
 
 namespace pssmlt {
 namespace {
@@ -56,9 +57,12 @@ int run_info(const Arguments& arguments) {
   CLI::App app("Prints what a scene contains.", "pssmlt info");
   std::string path;
   app.add_option("scene", path, "scene file")->required();
+  std::string cache;
+  app.add_option("--texture-cache", cache, "limit of the textures' memory, e.g. 1GB");
   if (!parse_arguments(app, arguments)) return 0;
+  if (!cache.empty()) set_texture_cache(parse_bytes(cache));
   std::vector<std::string> log;
-  const SceneDescription description = parse_file(path, &log);
+  const SceneDescription description = read_scene(path, &log);
   BuildOptions options;
   options.defaults = default_plugins();
   const BuiltScene scene = build_scene(description, options);
@@ -74,6 +78,13 @@ int run_info(const Arguments& arguments) {
                     f.user_shapes, f.instance_count));
   print(fmt::format("acceleration structure: {}B, built in {:.3g} s",
                     format_count(static_cast<double>(f.accel_bytes)), f.accel_seconds));
+  const TexelMemory texels = texel_memory();
+  print(fmt::format(
+      "images of textures: {}B, {}B in memory{}", format_count(static_cast<double>(texels.total)),
+      format_count(static_cast<double>(texels.resident)),
+      texels.limit == 0
+          ? ""
+          : fmt::format(" (at most {}B)", format_count(static_cast<double>(texels.limit)))));
   print(fmt::format("loading: {:.3g} s", f.load_seconds));
   for (const Layer& layer : scene.layers) print_layer(layer);
   print("left out: " + joined(f.left_out));

@@ -16,6 +16,7 @@ constexpr const char* usage =
     "       pssmlt info SCENE                   what a scene contains\n"
     "       pssmlt error PICTURE REFERENCE      how far a picture is from a reference\n"
     "       pssmlt merge A B ... -o C           average independent renders of one picture\n"
+    "       pssmlt convert OLD NEW              a scene as one file in today's format\n"
     "       pssmlt plugins [KIND [NAME]]        reference of the plugins' parameters\n"
     "       pssmlt --version                    versions and processor features\n";
 
@@ -33,7 +34,8 @@ int run(Arguments arguments) {
   static const std::map<std::string, int (*)(const Arguments&)> commands = {
       {"render", pssmlt::run_render},   {"compare", pssmlt::run_compare},
       {"plugins", pssmlt::run_plugins}, {"info", pssmlt::run_info},
-      {"error", pssmlt::run_error},     {"merge", pssmlt::run_merge}};
+      {"error", pssmlt::run_error},     {"merge", pssmlt::run_merge},
+      {"convert", pssmlt::run_convert}};
   const auto command = commands.find(first);
   if (command == commands.end()) return pssmlt::run_render(arguments);
   arguments.erase(arguments.begin());

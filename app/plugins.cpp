@@ -35,10 +35,17 @@ std::string cell(std::string text) {
   return text;
 }
 
+// What kind of value a texture has, if only one; "" otherwise.
+std::string only_form(const PluginDescriptor& d) {
+  if (std::string(d.kind) != "Texture" || (d.create && d.create_rgb)) return "";
+  return d.create ? "Only as a float texture." : "Only as a spectrum texture.";
+}
+
 void print_markdown(const std::string& kind, const std::string& name) {
   const PluginDescriptor& d = *find(kind, name).descriptor;
   print(fmt::format("### {} \"{}\"\n\n{}\n", kind, name, d.summary));
   if (d.alias_count != 0) print("Also called: " + aliases(d) + ".\n");
+  if (const std::string only = only_form(d); !only.empty()) print(only + "\n");
   const std::vector<ParameterDoc> parameters = describe(d);
   if (parameters.empty()) return print("No parameters.\n");
   print("| parameter | type | default | unit | meaning |\n|---|---|---|---|---|");
@@ -53,6 +60,7 @@ void print_plain(const std::string& kind, const std::string& name) {
   const PluginDescriptor& d = *find(kind, name).descriptor;
   print(fmt::format("{} \"{}\": {}", kind, name, d.summary));
   if (d.alias_count != 0) print("  also called: " + aliases(d));
+  if (const std::string only = only_form(d); !only.empty()) print("  " + only);
   for (const ParameterDoc& p : describe(d)) {
     const std::string unit = p.unit.empty() ? "" : " [" + p.unit + "]";
     const std::string fallback = p.fallback.empty() ? "" : " (" + p.fallback + ")";

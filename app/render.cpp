@@ -7,15 +7,16 @@
 
 #include "app/live/render_view.h"
 #include "app/progress.h"
+#include "app/read_scene.h"
 #include "app/render_options.h"
 #include "app/render_record.h"
 #include "app/signals.h"
 #include "app/summary.h"
 #include "core/base/log.h"
+#include "core/image/texel_store.h"
 #include "core/render/auxiliary.h"
 #include "core/render/output.h"
 #include "core/render/replay.h"
-#include "core/scene/parser.h"
 
 namespace pssmlt {
 namespace {
@@ -35,6 +36,9 @@ void prepare_outputs(RenderOptions& o, const BuiltScene& scene) {
   if (o.outputs.empty()) o.outputs = {scene.output.empty() ? "pssmlt.exr" : scene.output};
   for (const std::string& path : o.outputs) check_writable(path);
   const auto& outputs = o.outputs;
+  if (o.auxiliary.empty() && std::ranges::any_of(outputs, holds_layers)) {
+    o.auxiliary = scene.film_layers;
+  }
   if (!o.auxiliary.empty() && std::none_of(outputs.begin(), outputs.end(), holds_layers)) {
     throw Error("--aux needs an EXR among the outputs: other formats hold no layers");
   }
@@ -54,7 +58,8 @@ void prepare_outputs(RenderOptions& o, const BuiltScene& scene) {
 BuiltScene load(RenderOptions& o) {
   std::vector<std::string> log;
   const auto start = std::chrono::steady_clock::now();
-  const SceneDescription description = parse_file(o.scene, &log);
+  const SceneDescription description = read_scene(o.scene, &log);
+  set_texture_cache(o.texture_cache);
   BuiltScene scene = build_scene(description, o.build);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   for (const std::string& line : log) log_info(line);

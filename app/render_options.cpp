@@ -6,19 +6,21 @@
 #include "app/defaults.h"
 #include "app/parse_arguments.h"
 #include "app/parse_numbers.h"
+#include "core/image/texel_store.h"
 
 namespace pssmlt {
 namespace {
 
 // What the command line gives as text, before it is understood.
 struct RawOptions {
-  std::string integrator, sampler, time, size, crop, pixel, checkpoint_every, aux;
+  std::string integrator, sampler, time, size, crop, pixel, checkpoint_every, aux, texture_cache;
   double spp = 0.0, target_error = 0.0;
   uint64_t seed = 0;
 };
 
 void add_scene_options(CLI::App& app, RenderOptions& o, RawOptions& raw) {
-  app.add_option("scene", o.scene, "scene file (.txt, .pbrt, gzip-ed or not)")->required();
+  app.add_option("scene", o.scene, "scene file (.txt, .pbrt, gzip-ed or not; .gltf, .glb)")
+      ->required();
   app.add_option("--integrator", raw.integrator, "integrator instead of the scene's");
   app.add_option("--sampler", raw.sampler, "sampler instead of the scene's");
   app.add_option("--set", o.build.set, "change a parameter, e.g. integrator.maxdepth=8")
@@ -40,6 +42,8 @@ void add_budget_options(CLI::App& app, RenderOptions& o, RawOptions& raw) {
       ->check(CLI::PositiveNumber);
   app.add_option("--threads", o.render.threads, "threads (all processors)")
       ->check(CLI::Range(1, 1024));
+  app.add_option("--texture-cache", raw.texture_cache,
+                 "limit of the textures' memory, e.g. 1GB; the rest lies in a temporary file");
   app.add_option("--checkpoint", o.render.checkpoint, "file to keep the render's state in");
   app.add_option("--checkpoint-every", raw.checkpoint_every, "time between checkpoints (60s)");
   app.add_flag("--resume", o.render.resume,
@@ -108,6 +112,7 @@ void understand_budget_options(const CLI::App& app, RenderOptions& o, const RawO
   if (app.count("--spp") != 0) o.render.spp = raw.spp;
   if (app.count("--target-error") != 0) o.render.target_error = raw.target_error;
   if (app.count("--seed") != 0) o.seed = raw.seed;
+  if (!raw.texture_cache.empty()) o.texture_cache = parse_bytes(raw.texture_cache);
   if (!raw.time.empty()) o.render.seconds = parse_duration(raw.time, o.notes);
   if (!raw.checkpoint_every.empty()) {
     o.render.checkpoint_seconds = parse_duration(raw.checkpoint_every, o.notes);

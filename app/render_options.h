@@ -18,6 +18,7 @@ struct RenderOptions {
   RenderSettings render;
   ViewOptions view_while;  // who watches while it renders
   std::optional<uint64_t> seed;
+  uint64_t texture_cache = 0;  // limit of the textures' memory [bytes]; 0: none
   bool quiet = false, verbose = false;
   std::string json;  // file for the statistics; "": none
   std::string view;  // OpenColorIO view for 8-bit images

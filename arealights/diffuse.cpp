@@ -1,10 +1,12 @@
 // A shape whose surface emits the same radiance in all directions, from its outside or from both
-// sides, constant or textured by an image over (u, v).
+// sides, constant or textured: by an image over (u, v), or by any texture (an extension of the
+// format).
 //
 // Source: Pharr, Jakob, Humphreys 2023, Physically Based Rendering, section 12.4. "power" is the
 // flux of the whole shape (of all triangles of a mesh together) and replaces the magnitude of L.
 // Points are chosen over the area: large lights seen from near are noisy.
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "core/base/frame.h"
 #include "core/base/warp.h"
@@ -21,6 +23,14 @@ SurfaceSample as_sample(const EndpointPoint& at) {
   return {.position = at.position, .normal = at.normal, .uv = at.uv, .element = at.element};
 }
 EndpointPoint as_point(const SurfaceSample& s) { return {s.position, s.normal, s.uv, s.element}; }
+Hit as_hit(const EndpointPoint& at) {
+  Hit hit;
+  hit.position = at.position;
+  hit.ng = hit.ns = at.normal;
+  hit.uv = at.uv;
+  hit.element = at.element;
+  return hit;
+}
 
 class DiffuseAreaLight final : public Light {
  public:
@@ -29,7 +39,8 @@ class DiffuseAreaLight final : public Light {
   DiffuseAreaLight(Parameters& p, const PluginArguments& arguments)
       : shape_(arguments.shape), alpha_(arguments.alpha) {
     const bool has_radiance = p.has("L");
-    radiance_ = p.rgb("L", Rgb(1.f), SpectrumUse::Illuminant, "W/(m^2 sr)", "Emitted radiance.");
+    const auto radiance = p.rgb_texture("L", Rgb(1.f), SpectrumUse::Illuminant, "W/(m^2 sr)",
+                                        "Emitted radiance; a texture may vary it.");
     const float scale = p.number("scale", 1.f, "", "Factor of the radiance.");
     const float power = p.number("power", -1.f, "W", "Total emitted power; negative: from L.");
     two_sided_ = p.flag("twosided", false, "Emit from the inside as well.");
@@ -38,15 +49,33 @@ class DiffuseAreaLight final : public Light {
     if (has_radiance && !file.empty())
       p.fail("filename", "\"filename\" cannot be given together with \"L\"");
     if (p.describing()) return;
+    // Cut out everywhere: the shape is not seen, but emits in full, as in pbrt-v4.
+    hidden_ = alpha_ && alpha_->constant() && alpha_->evaluate(Hit()) == 0.f;
+    if (hidden_) alpha_ = nullptr;
     if (!file.empty()) load(p, file);
-    radiance_ *= scale;
     area_ = shape_->area();
+    if (radiance->constant()) {
+      radiance_ = radiance->evaluate(Hit());
+    } else {
+      texture_ = radiance;
+      measure_texture();
+    }
+    radiance_ *= scale;
     if (power > 0.f) radiance_ *= power / natural_power(p);
   }
 
-  EndpointTraits traits() const override { return {}; }
+  EndpointTraits traits() const override { return {.hidden = hidden_}; }
   float power() const override {
     return sides() * pi * area_ * luminance(radiance_) * mean_luminance_;
+  }
+
+  std::optional<LightBounds> bounds() const override {
+    LightBounds b;
+    b.box = shape_->bounds();
+    b.normals = shape_->normals();
+    b.two_sided = two_sided_;
+    b.intensity = power() / (sides() * pi);
+    return b;
   }
 
   // The first direction number also picks the side of two-sided lights.
@@ -107,7 +136,8 @@ class DiffuseAreaLight final : public Light {
     const float z = glm::dot(at.normal, direction);
     const float cosine = std::abs(z);
     if (!two_sided_ && !(z > 0.f)) return {Rgb(0.f), cosine, pdf_position, 0.f};
-    return {radiance(at.uv), cosine, pdf_position, cosine * inv_pi / sides()};
+    return {texture_ ? radiance_ * textured(at) : radiance(at.uv), cosine, pdf_position,
+            cosine * inv_pi / sides()};
   }
 
   static Image read(const Parameters& p, const std::string& file) {
@@ -128,6 +158,27 @@ class DiffuseAreaLight final : public Light {
         sum += static_cast<double>(luminance(texel(x, y)));
       }
     mean_luminance_ = static_cast<float>(sum / image_.width / image_.height);
+  }
+
+  // The mean luminance, from points spread evenly over the shape: it guides the choice among
+  // lights.
+  void measure_texture() {
+    constexpr int points = 1024;
+    double sum = 0.0;
+    // Roberts's sequence: multiples of the inverse powers of the plastic number.
+    dvec2 u(0.5);
+    for (int i = 0; i < points; ++i) {
+      u += dvec2(0.7548776662466927, 0.5698402909980532);
+      u -= glm::floor(u);
+      sum += static_cast<double>(
+          luminance(textured(as_point(shape_->sample_area(to_float_below_one(u))))));
+    }
+    mean_luminance_ = static_cast<float>(sum / points);
+    // What no point met may still shine.
+    if (!(mean_luminance_ > 1e-3f)) mean_luminance_ = 1e-3f;
+  }
+  Rgb textured(const EndpointPoint& at) const {
+    return glm::max(texture_->evaluate(as_hit(at)), Rgb(0.f));
   }
 
   // Power [W] of a light whose white has unit radiance: colours of L do not count.
@@ -159,19 +210,16 @@ class DiffuseAreaLight final : public Light {
   }
   float opacity(const EndpointPoint& at) const {
     if (!alpha_) return 1.f;
-    Hit hit;
-    hit.position = at.position;
-    hit.ng = hit.ns = at.normal;
-    hit.uv = at.uv;
-    hit.element = at.element;
-    const float a = alpha_->evaluate(hit);
+    const float a = alpha_->evaluate(as_hit(at));
     return a < 0.f ? 0.f : a > 1.f ? 1.f : a;  // NaN, a texture's failure, passes and is counted
   }
 
   std::shared_ptr<const Shape> shape_;
   std::shared_ptr<const Texture<float>> alpha_;
-  Rgb radiance_{1.f};  // [W/(m^2 sr)], or the image's factor
+  std::shared_ptr<const Texture<Rgb>> texture_;  // of the radiance, null if that is constant
+  Rgb radiance_{1.f};                            // [W/(m^2 sr)], or the image's or texture's factor
   bool two_sided_ = false;
+  bool hidden_ = false;  // rays pass through the shape
   Image image_;
   float area_ = 0.f;            // [m^2]
   float mean_luminance_ = 1.f;  // of the image

@@ -2,6 +2,13 @@
 
 namespace pssmlt {
 
+void read_shutter(Parameters& p) {
+  const float open = p.number("shutteropen", 0.f, "s", "When the exposure begins.");
+  const float close = p.number("shutterclose", 1.f, "s", "When it ends.");
+  if (!(open <= close))
+    p.fail("shutterclose", "\"shutterclose\" must not be before \"shutteropen\"");
+}
+
 ScreenMap::ScreenMap(Parameters& p, const RasterFrame& frame) : frame_(frame) {
   const double natural = static_cast<double>(frame.resolution.x) / frame.resolution.y;
   const double aspect = static_cast<double>(
@@ -10,11 +17,8 @@ ScreenMap::ScreenMap(Parameters& p, const RasterFrame& frame) : frame_(frame) {
   const std::vector<float> window =
       p.numbers("screenwindow", "",
                 "xmin xmax ymin ymax of the picture; default: -1 to 1 along the shorter axis.");
-  const float open = p.number("shutteropen", 0.f, "s", "When the exposure begins.");
-  const float close = p.number("shutterclose", 1.f, "s", "When it ends.");
+  read_shutter(p);
   if (!(aspect > 0.0)) p.fail("frameaspectratio", "\"frameaspectratio\" must be positive");
-  if (!(open <= close))
-    p.fail("shutterclose", "\"shutterclose\" must not be before \"shutteropen\"");
   dvec2 low = -dvec2(std::max(aspect, 1.0), std::max(1.0 / aspect, 1.0)), high = -low;
   if (p.has("screenwindow") && window.size() != 4)
     p.fail("screenwindow", "\"screenwindow\" needs four numbers: xmin xmax ymin ymax");
@@ -27,12 +31,6 @@ ScreenMap::ScreenMap(Parameters& p, const RasterFrame& frame) : frame_(frame) {
   const dvec2 resolution(frame.resolution);
   origin_ = {low.x, high.y};
   pixel_ = {(high.x - low.x) / resolution.x, (low.y - high.y) / resolution.y};
-}
-
-bool ScreenMap::shows(const dvec2& raster) const {
-  const dvec2 radius(frame_.filter_radius);
-  const dvec2 low = dvec2(frame_.crop_min) - radius, high = dvec2(frame_.crop_max) + radius;
-  return raster.x >= low.x && raster.x <= high.x && raster.y >= low.y && raster.y <= high.y;
 }
 
 }  // namespace pssmlt

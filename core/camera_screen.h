@@ -7,6 +7,9 @@
 
 namespace pssmlt {
 
+// Reads and checks "shutteropen" and "shutterclose".
+void read_shutter(Parameters& p);
+
 class ScreenMap {
  public:
   // Reads "frameaspectratio", "screenwindow", "shutteropen" and "shutterclose".
@@ -19,7 +22,7 @@ class ScreenMap {
   const dvec2& pixel() const { return pixel_; }
   dvec2 center() const { return screen(0.5 * dvec2(frame_.resolution)); }
   // True within the rendered window and the filter's radius around it.
-  bool shows(const dvec2& raster) const;
+  bool shows(const dvec2& raster) const { return frame_.shows(raster); }
   // Pixels in the rendered window.
   double pixels() const { return frame_.pixels(); }
 

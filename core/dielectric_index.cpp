@@ -3,47 +3,48 @@
 #include <algorithm>
 
 #include "core/base/log.h"
-#include "core/color/spectrum.h"
 
 namespace pssmlt {
 namespace {
 
 constexpr double helium_d = 587.6;  // [nm]
+constexpr const char* doc =
+    "refractive index of the inside over that of the outside, or a glass's spectrum";
 
-float from_spectrum(Parameters& p, const char* doc) {
-  const Samples samples = *p.spectrum("eta", "", doc);
-  const auto [low, high] = std::ranges::minmax(samples, {}, &vec2::y);
-  const auto eta = static_cast<float>(evaluate(samples, helium_d, Outside::Clamp));
-  if (low.y != high.y) {
-    const std::string place = to_string(p.where());
-    log_info((place.empty() ? "" : place + ": ") + p.owner() +
-             ": dispersion is not rendered yet; eta = " + std::to_string(eta) +
-             ", the value at 587.6 nm, is used");
-  }
-  return eta;
-}
-
-float from_rgb(Parameters& p, const char* doc) {
-  const Rgb eta = p.rgb("eta", Rgb(1.5f), SpectrumUse::Unbounded, "", doc);
+float from_rgb(Parameters& p, const char* name) {
+  const Rgb eta = p.rgb(name, Rgb(1.5f), SpectrumUse::Unbounded, "", doc);
   if (eta.x != eta.y || eta.y != eta.z)
-    p.fail("eta", "a refractive index that varies with colour is not supported yet");
+    p.fail(name, "a refractive index is given by wavelength, not by colour: use a spectrum");
   return eta.x;
-}
-
-float read(Parameters& p) {
-  constexpr const char* doc = "refractive index of the inside over that of the outside, or a glass";
-  const std::optional<ParameterType> type = p.type("eta");
-  if (type == ParameterType::Spectrum) return from_spectrum(p, doc);
-  if (type == ParameterType::Rgb) return from_rgb(p, doc);
-  return p.number("eta", 1.5f, "", doc);
 }
 
 }  // namespace
 
-float read_dielectric_index(Parameters& p) {
-  const float eta = read(p);
-  if (!(eta > 0.f)) p.fail("eta", "the refractive index must be positive");
-  return eta;
+DielectricIndex::DielectricIndex(Parameters& p, const char* name) {
+  const std::optional<ParameterType> type = p.type(name);
+  float least = 0.f;
+  if (type == ParameterType::Spectrum) {
+    samples_ = *p.spectrum(name, "", doc);
+    const auto [low, high] = std::ranges::minmax(samples_, {}, &vec2::y);
+    at_d_ = static_cast<float>(evaluate(samples_, helium_d, Outside::Clamp));
+    least = low.y;
+    if (low.y == high.y) samples_.clear();
+  } else {
+    at_d_ = type == ParameterType::Rgb ? from_rgb(p, name) : p.number(name, 1.5f, "", doc);
+    least = at_d_;
+  }
+  if (!(least > 0.f)) p.fail(name, "the refractive index must be positive");
+}
+
+float read_dielectric_index(Parameters& p, const char* name) {
+  const DielectricIndex index(p, name);
+  if (index.varies() && !p.describing()) {
+    const std::string place = to_string(p.where());
+    log_info((place.empty() ? "" : place + ": ") + p.owner() +
+             ": dispersion is rendered for \"dielectric\" only; eta = " +
+             std::to_string(index.at_d()) + ", the value at 587.6 nm, is used");
+  }
+  return index.at_d();
 }
 
 }  // namespace pssmlt

@@ -18,6 +18,9 @@ struct EndpointTraits {
   bool delta_position = false;   // point, spot, pinhole camera
   bool delta_direction = false;  // distant light
   bool infinite = false;         // at infinity: distant, environment
+  bool hidden = false;           // rays pass through it: an area light whose shape is cut out
+  // False if rays never meet it, so that only connections and emission find it.
+  bool hittable() const { return !delta_position && !delta_direction && !hidden; }
 };
 
 // A point on an endpoint. Infinite lights have no position; they use the direction toward them.

@@ -19,6 +19,7 @@ struct Hit {
   float distance = 0.f;   // along the ray that found it [m]
   float footprint = 0.f;  // diameter of a pixel at this point's distance to the camera [m]
   uint32_t element = 0;   // triangle of a mesh, 0 otherwise
+  vec2 where{0.f};        // of a mesh: weights of the triangle's second and third vertex
   const Primitive* primitive = nullptr;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/bsdf.h"
 #include "core/hit.h"
+#include "core/shading_normals.h"
 #include "core/texture.h"
 
 namespace pssmlt {
@@ -15,12 +16,22 @@ struct MaterialTraits {
   bool delta_lobes = false;     // S in path expressions
   bool transmits = false;       // can scatter to the other side
   bool draws_numbers = false;   // reads its MaterialNumbers
+  bool disperses = false;       // reads the path's wavelength (core/path/dispersion.h)
   bool passes_through = false;  // invisible (interface): rays go straight on
 };
 
-// The two numbers of u that a vertex keeps for its material (mix takes the first).
+class Medium;
+class PrimarySample;
+
+// Vertices of the shared stream that one hit's walk between layers may read.
+inline constexpr int walk_vertices = 11;
+
+// The two numbers of u that a vertex keeps for its material (mix takes the first), and where
+// materials that need more find theirs (core/layered/walk_numbers.h).
 struct MaterialNumbers {
   float first = 0.f, second = 0.f;
+  PrimarySample* sample = nullptr;  // null: no walk
+  int walk = 0;                     // first of walk_vertices vertices of the shared stream
 };
 
 class Material {
@@ -30,8 +41,10 @@ class Material {
   // Returns nullptr where nothing scatters (black).
   virtual const Bsdf* bsdf(const Hit& hit, MaterialNumbers u, BsdfStorage& storage) const = 0;
   virtual MaterialTraits traits() const = 0;
-  // Height field [m] that bends the shading frame (pbrt's "displacement"); null: none.
-  virtual const Texture<float>* displacement() const { return nullptr; }
+  // What bends the shading frame (pbrt's "displacement" and "normalmap"); null: nothing.
+  virtual const ShadingNormals* shading_normals() const { return nullptr; }
+  // The medium behind surfaces of this material, where scenes name none; null: what they name.
+  virtual std::shared_ptr<const Medium> interior() const { return nullptr; }
 };
 
 }  // namespace pssmlt

@@ -21,16 +21,35 @@ class InvalidBsdf final : public Bsdf {
 
 const Bsdf* invalid_bsdf(BsdfStorage& storage) { return storage.make<InvalidBsdf>(); }
 
-BumpedMaterial::BumpedMaterial(Parameters& p)
-    : displacement_(p.optional_float_texture(
-          "displacement", "height field [m] that bends the shading normal, not the surface")) {
-  if (p.has("normalmap")) p.fail("normalmap", "normal maps are not supported yet");
+BumpedMaterial::BumpedMaterial(Parameters& p) {
+  auto height = p.optional_float_texture(
+      "displacement", "height field [m] that bends the shading normal, not the surface");
+  const std::string map =
+      p.file("normalmap", "image of shading normals, instead of \"displacement\"");
+  const bool textured = p.has("normals");
+  auto normals = p.rgb_texture("normals", Rgb(0.5f, 0.5f, 1.f), SpectrumUse::Unbounded, "",
+                               "texture of shading normals n as (n + 1) / 2, not encoded");
+  const float scale = p.number("normalscale", 1.f, "", "of \"normals\": factor of their slope");
+  if (p.describing()) return;
+  if (height && !map.empty())
+    p.fail("normalmap", "\"normalmap\" cannot be given together with \"displacement\"");
+  if (textured && (height || !map.empty()))
+    p.fail("normals", "\"normals\" cannot be given together with another map");
+  if (textured) shading_normals_ = bend_by_texture(std::move(normals), scale);
+  if (height) shading_normals_ = bend_by_height(std::move(height));
+  if (map.empty()) return;
+  try {
+    shading_normals_ = bend_by_map(map);
+  } catch (const Error& e) {
+    p.fail("normalmap", e.what());
+  }
 }
 
-RoughnessTextures::RoughnessTextures(Parameters& p) {
-  const auto both = p.float_texture("roughness", 0.f, "", "roughness along both axes; 0 is smooth");
-  u_ = p.optional_float_texture("uroughness", "roughness along dpdu; default: roughness");
-  v_ = p.optional_float_texture("vroughness", "roughness along dpdv; default: roughness");
+RoughnessTextures::RoughnessTextures(Parameters& p, const std::string& prefix) {
+  const auto both =
+      p.float_texture(prefix + "roughness", 0.f, "", "roughness along both axes; 0 is smooth");
+  u_ = p.optional_float_texture(prefix + "uroughness", "roughness along dpdu; default: roughness");
+  v_ = p.optional_float_texture(prefix + "vroughness", "roughness along dpdv; default: roughness");
   remap_ = p.flag("remaproughness", true, "the width of the lobe is the root of the roughness");
   if (!u_) u_ = both;
   if (!v_) v_ = both;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/material.h"
 #include "core/microfacet.h"
@@ -9,24 +10,29 @@
 
 namespace pssmlt {
 
-// Reads "displacement"; "normalmap" is refused.
+// Reads "displacement", "normalmap" and "normals" (with "normalscale"), of which at most one may be
+// given.
 class BumpedMaterial : public Material {
  public:
-  const Texture<float>* displacement() const final { return displacement_.get(); }
+  const ShadingNormals* shading_normals() const final { return shading_normals_.get(); }
 
  protected:
   explicit BumpedMaterial(Parameters& p);
 
  private:
-  std::shared_ptr<const Texture<float>> displacement_;
+  std::shared_ptr<const ShadingNormals> shading_normals_;
 };
 
-// Reads "roughness", "uroughness", "vroughness" and "remaproughness".
+// Reads "roughness", "uroughness" and "vroughness", each behind `prefix`, and "remaproughness".
 class RoughnessTextures {
  public:
-  explicit RoughnessTextures(Parameters& p);
+  explicit RoughnessTextures(Parameters& p, const std::string& prefix = "");
   // Widths [1] along dpdu and dpdv, >= 0; NaN where a texture fails.
   vec2 alpha(const Hit& hit) const;
+  // alpha(), if it is the same everywhere.
+  std::optional<vec2> constant() const {
+    return is_constant_ ? std::optional(constant_) : std::nullopt;
+  }
   // Whether lobes are wide and whether they are mirrors; both where textures decide.
   bool may_be_rough() const { return !is_constant_ || !is_smooth_; }
   bool may_be_smooth() const { return !is_constant_ || is_smooth_; }

@@ -24,6 +24,8 @@ class Ggx {
   // Width for a perceptually even roughness in [0, 1] (pbrt-v4's "remaproughness").
   static float remap(float roughness) { return std::sqrt(roughness); }
 
+  // The root of both widths' product.
+  float width() const { return std::sqrt(ax_ * ay_); }
   bool is_smooth() const { return std::max(ax_, ay_) < smooth_below; }
 
   // Density of normals [1/sr] per projected area: its integral times cos is 1.

@@ -8,7 +8,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/bounds.h"
+#include "core/base/cone.h"
 #include "core/base/ray.h"
+#include "core/base/rgb.h"
 #include "core/hit.h"
 
 namespace pssmlt {
@@ -19,14 +22,10 @@ struct TriangleMesh {
   std::vector<vec3> normals;    // empty or one a vertex, unit
   std::vector<vec2> uvs;        // empty or one a vertex
   std::vector<glm::uvec3> triangles;
-};
-
-struct Bounds {
-  vec3 min{infinity}, max{-infinity};
-  void add(const vec3& p) {
-    min = glm::min(min, p);
-    max = glm::max(max, p);
-  }
+  // What textures may ask for (core/vertex_data.h); each empty or one a vertex.
+  std::vector<vec2> second_uvs;
+  std::vector<Rgb> colors;
+  std::vector<float> opacities;
 };
 
 // Where a ray meets a user geometry: distance, the shape's own two coordinates there (`where` of
@@ -51,8 +50,8 @@ class Shape {
   // The mesh if the shape is one; then intersection is the ray tracer's own and `fill` gets the
   // triangle and its barycentric coordinates (weights of the second and third vertex).
   virtual const TriangleMesh* mesh() const { return nullptr; }
-  // User geometry only: bounds and nearest intersection with t in (t_min, ray.t_max).
   virtual Bounds bounds() const = 0;
+  // User geometry only: nearest intersection with t in (t_min, ray.t_max).
   virtual std::optional<UserHit> intersect(const Ray& ray, float t_min) const {
     (void)ray, (void)t_min;
     return std::nullopt;
@@ -75,6 +74,8 @@ class Shape {
     (void)reference;
     return true;
   }
+  // A cone around the geometric normals of all its points; all directions unless better is known.
+  virtual DirectionCone normals() const { return {}; }
   // Densities of sample_area [1/m^2] and of sample_toward [1/sr at the reference] at a point of
   // this surface, of which position, normal, uv and element are read. The defaults: 1 / area, and
   // its conversion.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include <glm/trigonometric.hpp>
+
 #include "core/base/frame.h"
+#include "core/vertex_data.h"
 
 namespace pssmlt {
 namespace {
@@ -27,6 +30,15 @@ TextureMapping2D::TextureMapping2D(Parameters& p)
   if (kind_ == Kind::uv || all) {
     scale_.x = p.number("uscale", 1.f, "", "uv: factor of u");
     scale_.y = p.number("vscale", 1.f, "", "uv: factor of v");
+    const float turn = p.number("uvrotation", 0.f, "degrees",
+                                "uv: turn about (0, 0), counter-clockwise, after the factors");
+    const int set = p.integer("uvset", 0, "", "uv: 1 for the mesh's second set of coordinates");
+    if (set != 0 && set != 1) p.fail("uvset", "\"uvset\" must be 0 or 1");
+    second_ = set == 1;
+    if (turn != 0.f) {
+      cosine_ = std::cos(glm::radians(turn));
+      sine_ = std::sin(glm::radians(turn));
+    }
   }
   if (kind_ == Kind::uv || kind_ == Kind::planar || all) {
     delta_.x = p.number("udelta", 0.f, "", "uv, planar: added to s");
@@ -57,7 +69,7 @@ vec2 TextureMapping2D::map_point(const vec3& p) const {
 }
 
 vec2 TextureMapping2D::map(const Hit& hit) const {
-  if (kind_ == Kind::uv) return scale_ * hit.uv + delta_;
+  if (kind_ == Kind::uv) return rotated(scale_ * (second_ ? second_uv(hit) : hit.uv)) + delta_;
   return map_point(to_texture_.point(hit.position));
 }
 
@@ -67,10 +79,10 @@ TextureFootprint TextureMapping2D::uv_footprint(const Hit& hit, const vec3& alon
   const float uu = length_squared(hit.dpdu), vv = length_squared(hit.dpdv);
   const float uv = glm::dot(hit.dpdu, hit.dpdv);
   const float determinant = uu * vv - uv * uv;
-  if (!(determinant > 0.f)) return {};
+  if (!(determinant > 0.f) || second_) return {};
   const auto solve = [&](const vec3& direction) {
     const float u = glm::dot(hit.dpdu, direction), v = glm::dot(hit.dpdv, direction);
-    return scale_ * vec2(vv * u - uv * v, uu * v - uv * u) / determinant;
+    return rotated(scale_ * vec2(vv * u - uv * v, uu * v - uv * u) / determinant);
   };
   return {solve(along), solve(across)};
 }
@@ -88,6 +100,15 @@ TextureFootprint TextureMapping2D::footprint(const Hit& hit) const {
     return d;
   };
   return {step(along), step(across)};
+}
+
+float TextureMapping3D::footprint(const Hit& hit) const {
+  if (!(hit.footprint > 0.f)) return 0.f;
+  const Frame frame = Frame::from_tangent(hit.ng, hit.dpdu);
+  const auto step = [&](const vec3& direction) {
+    return glm::length(to_texture_.vector(hit.footprint * direction));
+  };
+  return std::max(step(frame.s), step(frame.t));
 }
 
 }  // namespace pssmlt

@@ -5,12 +5,12 @@
 // Good for light that both ends find half-way; blind only to specular-diffuse-specular paths from
 // lights that can't be hit.
 
-#include <array>
-
 #include "core/integrator.h"
-#include "core/path/light_draw.h"
+#include "core/path/dispersion.h"
+#include "core/path/flight.h"
+#include "core/path/sensor_draw.h"
 #include "core/path/strategies.h"
-#include "core/path/subpath.h"
+#include "core/path/subpath_cache.h"
 #include "core/plugin/plugin.h"
 
 namespace pssmlt {
@@ -21,35 +21,6 @@ constexpr std::string_view heuristics[] = {"balance", "power"};
 // Vertices past this index are joined with one vertex of the other side, drawn at random, so that
 // the work grows linearly with the depth.
 constexpr int all_pairs = 32;
-
-// Subpaths of the last evaluations, by the identity of the numbers they were made from: a Markov
-// chain that changes one end keeps the other's subpath. Of the two, the current state's stays.
-class SubpathCache {
- public:
-  // The subpath to use for `version`; `fresh` says that it has to be made.
-  Subpath& find(StreamVersion version, bool& fresh) {
-    for (Slot& slot : slots_) {
-      if (slot.version == version.now) {
-        fresh = false;
-        return slot.path;
-      }
-    }
-    fresh = true;
-    Slot& slot = slots_[0].version == version.keep ? slots_[1] : slots_[0];
-    slot.version = version.now;
-    return slot.path;
-  }
-  void reserve(int vertices) {
-    for (Slot& slot : slots_) slot.path.reserve(vertices);
-  }
-
- private:
-  struct Slot {
-    uint64_t version = ~uint64_t{0};
-    Subpath path;
-  };
-  std::array<Slot, 2> slots_;
-};
 
 struct Scratch {
   SubpathCache camera, light;
@@ -66,14 +37,11 @@ struct Strategy {
 };
 
 double as_double(float x) { return static_cast<double>(x); }
-float cosine(const Surface& s, const vec3& direction) {
-  return std::abs(glm::dot(s.hit.ng, direction));
-}
 
 // Density with which the endpoint's emission samples the vertex, over that of drawing the endpoint
-// from there (`drawn`); the length of the edge cancels.
-double emitted_over_drawn(const Toward& t, float cos_vertex, float drawn) {
-  return as_double(t.pdf_position) * as_double(t.pdf_direction) * as_double(cos_vertex) /
+// from there (`drawn`); the length of the edge cancels. arrival: Surface::arrival() of the vertex.
+double emitted_over_drawn(const Toward& t, float arrival, float drawn) {
+  return as_double(t.pdf_position) * as_double(t.pdf_direction) * as_double(arrival) /
          (as_double(t.cosine) * as_double(drawn));
 }
 
@@ -90,6 +58,7 @@ class Bdpt final : public Integrator {
                       "section 9.2)") == "power"
                  ? Mis::Heuristic::power
                  : Mis::Heuristic::balance),
+        pick_(read_light_pick(p)),
         unweighted_(p.flag("unweighted", false,
                            "every strategy counts in full, to look at "
                            "strategies one by one; the picture is not their sum")),
@@ -117,15 +86,18 @@ class Bdpt final : public Integrator {
 
   void prepare(const Scene& scene) override {
     scene_ = &scene;
-    tracer_ = std::make_unique<SubpathTracer>(scene, limits_, mis_);
+    tracer_ = std::make_unique<SubpathTracer>(scene, limits_, mis_, pick_);
     // Without a surface that can be joined, light subpaths only serve to show the lamps themselves,
     // which the camera subpath does better.
     light_side_ = scene.features().connectible && !scene.lights().empty();
-    lamps_to_lens_ = light_side_ && scene.features().area_lights;
+    sensor_ = scene.camera().bare() && !scene.lights().empty();
+    lamps_to_lens_ = !sensor_ && light_side_ && scene.features().area_lights;
   }
   std::string sees() const override {
-    return strategy::any_of({strategy::hit_light, strategy::next_event, strategy::join,
-                             strategy::lens, strategy::light_to_lens});
+    const std::string common =
+        strategy::any_of({strategy::hit_light, strategy::next_event, strategy::join, strategy::lens,
+                          strategy::light_to_lens});
+    return sensor_ ? strategy::any_of({common.c_str(), strategy::sensor_draw}) : common;
   }
   bool splats_light() const override { return true; }
   const PathLimits& limits() const override { return limits_; }
@@ -139,24 +111,34 @@ class Bdpt final : public Integrator {
   float weight(double light_side, double camera_side) const {
     return unweighted_ ? 1.f : static_cast<float>(Mis::weight(light_side, camera_side));
   }
-  void hit_lights(const Subpath& camera, Splats& out) const;
+  // Of the path's wavelength, if it has one.
+  static Rgb colour(bool dispersed, PrimarySample& u) {
+    return dispersed ? path_wavelength(u).colour : Rgb(1.f);
+  }
+  void hit_lights(const Subpath& camera, PrimarySample& u, Splats& out) const;
+  void meet_medium(const Subpath& camera, int k, PrimarySample& u, Splats& out) const;
   void hit(const Subpath& camera, int bounces, const Light& light, const EndpointPoint& at,
-           const Rgb& value, Splats& out) const;
+           Rgb value, PrimarySample& u, Splats& out) const;
   void draw_lights(const Subpath& camera, PrimarySample& u, Splats& out) const;
   void draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, Splats& out) const;
+  void draw_light_for_sensor(const Subpath& camera, PrimarySample& u, Splats& out) const;
   void lens_from_light(const Subpath& light, PrimarySample& u, Splats& out) const;
   void lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats& out) const;
   void join_all(const Subpath& camera, const Subpath& light, PrimarySample& u, Splats& out) const;
-  void join(const PathVertex& x, const PathVertex& y, Strategy st, float factor, Splats& out) const;
+  void join(const PathVertex& x, const PathVertex& y, Strategy st, float factor, PrimarySample& u,
+            Splats& out) const;
 
   PathLimits limits_;
   Mis mis_;
+  LightPick pick_;
   bool unweighted_;
   int only_s_, only_t_;
   const Scene* scene_ = nullptr;
   std::unique_ptr<const SubpathTracer> tracer_;
-  bool light_side_ = false;     // light subpaths are made
-  bool lamps_to_lens_ = false;  // the strategy s = t = 1 is used
+  bool light_side_ = false;  // light subpaths are made
+  // How the strategy s = t = 1 is made: a light's point joined with the lens, or a light drawn for
+  // the point of a camera that is a bare surface.
+  bool lamps_to_lens_ = false, sensor_ = false;
 };
 
 void Bdpt::sample(PrimarySample& u, Splats& out, Workspace& workspace) const {
@@ -168,7 +150,8 @@ void Bdpt::sample(PrimarySample& u, Splats& out, Workspace& workspace) const {
   Subpath& camera = scratch.camera.find(u.version(Stream::camera), fresh);
   u.raster();  // camera splats are credited there, whether or not the subpath is reused
   if (fresh) tracer_->from_camera(u, camera);
-  hit_lights(camera, out);
+  hit_lights(camera, u, out);
+  if (sensor_) draw_light_for_sensor(camera, u, out);
   draw_lights(camera, u, out);
   if (!light_side_) return;
   Subpath& light = scratch.light.find(u.version(Stream::light), fresh);
@@ -180,25 +163,39 @@ void Bdpt::sample(PrimarySample& u, Splats& out, Workspace& workspace) const {
 }
 
 // s = 0: camera subpaths that met a light.
-void Bdpt::hit_lights(const Subpath& camera, Splats& out) const {
+void Bdpt::hit_lights(const Subpath& camera, PrimarySample& u, Splats& out) const {
   for (int k = 1; k <= camera.size(); ++k) {
     const Surface& s = camera[k].surface;
+    if (s.in_medium()) {
+      meet_medium(camera, k, u, out);
+      continue;
+    }
     const Light* const light = s.hit.primitive->light;
     if (!light) continue;
-    hit(camera, k - 1, *light, s.light_point(), scene_->emitted(s.hit, s.wo), out);
+    hit(camera, k - 1, *light, s.light_point(), scene_->emitted(s.hit, s.wo), u, out);
   }
   const Escape& escape = camera.escape;
   if (escape.bounces < 0) return;
   EndpointPoint at;
   at.normal = -escape.direction;
   for (const Light* light : scene_->lights().infinite()) {
-    hit(camera, escape.bounces, *light, at, light->background(escape.direction), out);
+    hit(camera, escape.bounces, *light, at, light->background(escape.direction), u, out);
   }
+}
+
+// Light that a medium emits at a camera subpath's vertex; no other strategy makes it.
+void Bdpt::meet_medium(const Subpath& camera, int k, PrimarySample& u, Splats& out) const {
+  const PathVertex& v = camera[k];
+  const Strategy st{0, k + 1};
+  const Rgb& emission = v.surface.point().emission;
+  if (is_black(emission) || !wants(st)) return;
+  if (!limits_.paths.ends(LightLetter::medium, v.state)) return;
+  out.camera(colour(camera.dispersed_before(k), u) * v.throughput * emission, st.tag());
 }
 
 // The subpath's vertex bounces + 1 lies on the light (or is its escape), which emits `value`.
 void Bdpt::hit(const Subpath& camera, int bounces, const Light& light, const EndpointPoint& at,
-               const Rgb& value, Splats& out) const {
+               Rgb value, PrimarySample& u, Splats& out) const {
   const Strategy st{0, bounces + 2};
   if (!wants(st) || is_black(value)) return;
   const EndpointTraits traits = light.traits();
@@ -209,20 +206,32 @@ void Bdpt::hit(const Subpath& camera, int bounces, const Light& light, const End
   const vec3 direction = v ? v->surface.wo : -camera.escape.direction;
   const double p = as_double(scene_->lights().probability(&light));
   const EmissionValue e = light.evaluate(at, direction);
+  const Rgb& throughput = v ? v->throughput : camera.escape.throughput;
+  if (bounces == 0 && sensor_) {
+    // Against the same light drawn for the camera's point; what media absorb counts in neither.
+    const LightReceiver sensor = sensor_receiver(camera.start);
+    const double drawn = as_double(scene_->lights().probability(pick_, sensor, &light)) *
+                         as_double(light.pdf_toward(sensor.position, at));
+    const double ratio = mis_.f(drawn / as_double(camera.start.pdf_direction));
+    return out.camera(weight(0.0, ratio) * throughput * value, st.tag());
+  }
   double connect = 0.0;
   if (bounces == 0) {
     // Only s = t = 1 could have made this path, with a point drawn as for emission.
     connect = lamps_to_lens_ && v ? p * as_double(e.pdf_position) : 0.0;
-  } else {
-    const vec3& from = camera.position(bounces);
-    connect = p * as_double(light.pdf_toward(from, at));
+  } else if (mis.connect > 0.0) {
+    const Surface& last = camera[bounces].surface;
+    const vec3& from = last.hit.position;
+    const LightReceiver receiver = light_receiver(*scene_, pick_, last);
+    connect = as_double(scene_->lights().probability(pick_, receiver, &light)) *
+              as_double(light.pdf_toward(from, at));
     if (v) {
-      connect *=
-          as_double(cosine(v->surface, direction)) / as_double(length_squared(at.position - from));
+      connect *= as_double(std::abs(glm::dot(v->surface.hit.ng, direction))) /
+                 as_double(length_squared(at.position - from));
     }
   }
   const double emit = p * as_double(e.pdf_position) * as_double(e.pdf_direction);
-  const Rgb& throughput = v ? v->throughput : camera.escape.throughput;
+  value *= colour(camera.dispersed_before(bounces + 1), u);
   out.camera(weight(0.0, mis_.on_light(mis, connect, emit)) * throughput * value, st.tag());
 }
 
@@ -237,20 +246,35 @@ void Bdpt::draw_lights(const Subpath& camera, PrimarySample& u, Splats& out) con
 void Bdpt::draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, Splats& out) const {
   if (!wants(st)) return;
   const Surface& surface = x.surface;
-  const LightDraw draw(*scene_, surface.hit.position, light_numbers(u, st.t - 1));
+  const LightDraw draw(*scene_, pick_, surface, light_numbers(u, st.t - 1));
   if (!draw.succeeded() || !limits_.paths.ends(draw.letter(), x.joined_state)) return;
   const Toward& t = draw.toward();
   const auto scattering = surface.scattering(t.wi, Transport::radiance);
   const Rgb value = x.throughput * scattering.f_cos * t.value / draw.pdf();
   if (is_black(value)) return;
-  const double light_side =
-      draw.delta() ? 0.0 : mis_.f(as_double(scattering.pdf) / as_double(draw.pdf()));
-  // The probability of choosing the light is the same whether it emits or is drawn.
-  const double emit = emitted_over_drawn(t, cosine(surface, t.wi), t.pdf_toward);
+  const Passage way = passage(*scene_, surface.segment(t), surface.medium_toward(t.wi));
+  if (!(way.visibility > 0.f)) return;
+  const float met = scattering.pdf * mean(way.transmittance);
+  const double light_side = draw.hittable() ? mis_.f(as_double(met) / as_double(draw.pdf())) : 0.0;
+  const double emit = as_double(draw.emitted_over_drawn()) *
+                      emitted_over_drawn(t, surface.arrival(t.wi, way.transmittance), t.pdf_toward);
   const double camera_side =
       light_side_ ? mis_.join(x.mis, emit, as_double(scattering.pdf_reverse)) : 0.0;
-  const float visible = scene_->visibility(surface.segment(t));
-  out.camera(visible * weight(light_side, camera_side) * value, st.tag());
+  out.camera(weight(light_side, camera_side) * way.light() * colour(x.dispersed, u) * value,
+             st.tag());
+}
+
+// s = t = 1, for cameras that are bare surfaces.
+void Bdpt::draw_light_for_sensor(const Subpath& camera, PrimarySample& u, Splats& out) const {
+  const Strategy st{1, 1};
+  if (!camera.started || !wants(st)) return;
+  const SensorDraw draw(*scene_, pick_, camera.start, camera.time, light_numbers(u, 0));
+  if (!draw.succeeded()) return;
+  if (!limits_.paths.ends(draw.letter(), limits_.paths.from_camera())) return;
+  const Passage way = draw.way();
+  if (!(way.visibility > 0.f)) return;
+  const double met = mis_.f(as_double(draw.met()) / as_double(draw.pdf()));
+  out.camera(weight(met, 0.0) * way.light() * draw.value(), st.tag());
 }
 
 // s = t = 1: the light itself as the lens sees it.
@@ -261,17 +285,18 @@ void Bdpt::lens_from_light(const Subpath& light, PrimarySample& u, Splats& out) 
   const PathExpression& paths = limits_.paths;
   if (!paths.ends(LightLetter::area, paths.from_camera())) return;
   const EndpointPoint& at = light.start.from;
-  const auto lens = scene_->camera().toward(at.position, lens_connection_numbers(u, 0));
+  const auto lens = scene_->camera_toward(at.position, lens_connection_numbers(u, 0), light.time);
   if (!lens || !(lens->pdf_toward > 0.f)) return;
   const EmissionValue e = light.emitted(lens->wi);
   const float drawn = light.probability * light.start.pdf_position * lens->pdf_toward;
   const Rgb value = e.value * lens->value * (e.cosine / drawn);
   if (is_black(value)) return;
-  // The other strategy: a camera ray meets the light.
-  const double met = emitted_over_drawn(*lens, e.cosine, drawn);
   const Ray ray = Scene::segment(at.position, light.start.error, at.normal, lens->at.position,
-                                 lens->error, lens->at.normal);
-  out.light(lens->raster, scene_->visibility(ray) * weight(mis_.f(met), 0.0) * value, st.tag());
+                                 lens->error, lens->at.normal, light.time);
+  const Passage way = passage(*scene_, ray, scene_->light_medium(*light.light, at, lens->wi));
+  // The other strategy: a camera ray meets the light.
+  const double met = emitted_over_drawn(*lens, e.cosine * mean(way.transmittance), drawn);
+  out.light(lens->raster, weight(mis_.f(met), 0.0) * way.light() * value, st.tag());
 }
 
 // t = 1: a light subpath's vertex as the lens sees it.
@@ -280,16 +305,19 @@ void Bdpt::lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats&
   const PathExpression& paths = limits_.paths;
   if (!paths.joins(y.joined_state, paths.from_camera())) return;
   const Surface& surface = y.surface;
-  const auto lens =
-      scene_->camera().toward(surface.hit.position, lens_connection_numbers(u, st.s - 1));
+  const auto lens = scene_->camera_toward(surface.hit.position,
+                                          lens_connection_numbers(u, st.s - 1), surface.time);
   if (!lens || !(lens->pdf_toward > 0.f)) return;
   const auto scattering = surface.scattering(lens->wi, Transport::importance);
   const Rgb value = y.throughput * scattering.f_cos * lens->value / lens->pdf_toward;
   if (is_black(value)) return;
-  const double emit = emitted_over_drawn(*lens, cosine(surface, lens->wi), lens->pdf_toward);
+  const Passage way = passage(*scene_, surface.segment(*lens), surface.medium_toward(lens->wi));
+  if (!(way.visibility > 0.f)) return;
+  const double emit =
+      emitted_over_drawn(*lens, surface.arrival(lens->wi, way.transmittance), lens->pdf_toward);
   const double light_side = mis_.join(y.mis, emit, as_double(scattering.pdf_reverse));
-  const float visible = scene_->visibility(surface.segment(*lens));
-  out.light(lens->raster, visible * weight(light_side, 0.0) * value, st.tag());
+  out.light(lens->raster, weight(light_side, 0.0) * way.light() * colour(y.dispersed, u) * value,
+            st.tag());
 }
 
 // s, t >= 2. Every pair of vertices up to the bound; past it each vertex of the camera subpath is
@@ -302,17 +330,17 @@ void Bdpt::join_all(const Subpath& camera, const Subpath& light, PrimarySample& 
     // Light vertices that may be joined: s + t - 2 = (j + 1) + (k + 1) - 2 bounces.
     const int last = std::min(light.size(), limits_.max_bounces - k);
     const int all = k <= all_pairs ? std::min(last, all_pairs) : 0;
-    for (int j = 1; j <= all; ++j) join(x, light[j], {j + 1, k + 1}, 1.f, out);
+    for (int j = 1; j <= all; ++j) join(x, light[j], {j + 1, k + 1}, 1.f, u, out);
     const int rest = last - all;
     if (rest <= 0) continue;
     const float pick = light_numbers(u, k).pick;
     const int j = all + 1 + std::min(static_cast<int>(pick * static_cast<float>(rest)), rest - 1);
-    join(x, light[j], {j + 1, k + 1}, static_cast<float>(rest), out);
+    join(x, light[j], {j + 1, k + 1}, static_cast<float>(rest), u, out);
   }
 }
 
 void Bdpt::join(const PathVertex& x, const PathVertex& y, Strategy st, float factor,
-                Splats& out) const {
+                PrimarySample& u, Splats& out) const {
   if (!y.connectible || !wants(st)) return;
   if (!limits_.paths.joins(y.joined_state, x.joined_state)) return;
   const vec3 edge = y.surface.hit.position - x.surface.hit.position;
@@ -326,14 +354,18 @@ void Bdpt::join(const PathVertex& x, const PathVertex& y, Strategy st, float fac
   const Rgb value =
       x.throughput * at_camera.f_cos * at_light.f_cos * y.throughput * (factor / distance2);
   if (is_black(value)) return;
+  const Passage way = passage(*scene_, x.surface.segment(y.surface), x.surface.medium_toward(to_y));
+  if (!(way.visibility > 0.f)) return;
   const double d2 = as_double(distance2);
-  // Densities per area of each vertex as sampled from the other side.
-  const double at_y = as_double(at_camera.pdf) * as_double(cosine(y.surface, to_y)) / d2;
-  const double at_x = as_double(at_light.pdf) * as_double(cosine(x.surface, to_x)) / d2;
+  // Densities per area, in media per volume, of each vertex as sampled from the other side.
+  const Rgb& passed = way.transmittance;
+  const double at_y = as_double(at_camera.pdf) * as_double(y.surface.arrival(to_y, passed)) / d2;
+  const double at_x = as_double(at_light.pdf) * as_double(x.surface.arrival(to_x, passed)) / d2;
   const double light_side = mis_.join(y.mis, at_y, as_double(at_light.pdf_reverse));
   const double camera_side = mis_.join(x.mis, at_x, as_double(at_camera.pdf_reverse));
-  const float visible = scene_->visibility(x.surface.segment(y.surface));
-  out.camera(visible * weight(light_side, camera_side) * value, st.tag());
+  out.camera(
+      weight(light_side, camera_side) * way.light() * colour(x.dispersed || y.dispersed, u) * value,
+      st.tag());
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 // caustics and for light through small openings; blind to point, spot and distant lights seen
 // through specular surfaces only (and to nothing else that bdpt sees).
 
-#include "core/base/log.h"
 #include "core/integrator.h"
+#include "core/path/dispersion.h"
+#include "core/path/flight.h"
 #include "core/path/light_draw.h"
 #include "core/path/mis.h"
+#include "core/path/sensor_draw.h"
 #include "core/path/strategies.h"
 #include "core/path/surface.h"
 #include "core/plugin/plugin.h"
@@ -15,30 +17,28 @@
 namespace pssmlt {
 namespace {
 
-constexpr std::string_view light_samplers[] = {"bvh", "power", "uniform"};
-
 class Path final : public Integrator {
  public:
   static constexpr const char* summary =
       "path tracing with next event estimation and multiple importance sampling (Kajiya 1986)";
 
-  explicit Path(Parameters& p) : limits_(p) {
-    const std::string lights =
-        p.choice("lightsampler", "power", light_samplers,
-                 "how lights are chosen; only power is built, the others are read as power");
+  explicit Path(Parameters& p) : limits_(p), pick_(read_light_pick(p)) {
     const bool regularize =
         p.flag("regularize", false, "roughen surfaces after a rough bounce; not supported yet");
     if (p.describing()) return;
-    if (lights != "power") log_info("lightsampler \"" + lights + "\": lights are chosen by power");
     if (regularize) p.fail("regularize", "regularize is not supported yet");
   }
 
   void prepare(const Scene& scene) override {
     scene_ = &scene;
-    hittable_ = scene.features().area_lights || scene.features().infinite_lights;
-    next_event_ = scene.features().connectible && !scene.lights().empty();
+    const SceneFeatures& f = scene.features();
+    hittable_ = f.area_lights || f.infinite_lights || f.emitting_media;
+    next_event_ = f.connectible && !scene.lights().empty();
+    sensor_ = scene.camera().bare() && !scene.lights().empty();
   }
   std::string sees() const override {
+    if (sensor_)
+      return strategy::any_of({strategy::hit_light, strategy::next_event, strategy::sensor_draw});
     return strategy::any_of({strategy::hit_light, strategy::next_event});
   }
   bool splats_light() const override { return false; }
@@ -49,50 +49,77 @@ class Path final : public Integrator {
   // Where the path stands: the ray to trace and what came before it.
   struct Walk {
     Ray ray;
-    vec3 from{0.f};  // last vertex
+    const Medium* medium = nullptr;  // where the ray starts
+    LightReceiver last;              // last vertex
     Rgb throughput{1.f};
     float pdf = 0.f;          // of the ray's direction [1/sr]; 0: no light could have been drawn
     float eta_squared = 1.f;  // product of squared index ratios, which roulette looks through
     int bounces = 0;
+    bool dispersed = false;  // the path has a wavelength
     PathExpression::State state = 0;
   };
   void add_emission(const Walk& w, const Hit& hit, Splats& out) const;
+  void add_medium_emission(const Walk& w, const Surface& s, Splats& out) const;
   void add_background(const Walk& w, Splats& out) const;
+  void add_to_sensor(const Emission& start, Walk& w, PrimarySample& u, Splats& out) const;
   void add_direct(const Walk& w, const Surface& s, PrimarySample& u, Splats& out) const;
   bool scatter(Walk& w, const Surface& s, PrimarySample& u) const;
+  void take_wavelength(Walk& w, const Surface& s, PrimarySample& u) const;
   void add(const Walk& w, const Light& light, const EndpointPoint& at, const Rgb& value,
            Splats& out) const;
 
   PathLimits limits_;
+  LightPick pick_;
   const Scene* scene_ = nullptr;
   bool hittable_ = false;    // there are lights that rays can meet
   bool next_event_ = false;  // there are lights to draw and surfaces that can be lit by the draw
+  bool sensor_ = false;      // lights are drawn for the camera's own points
 };
 
 void Path::sample(PrimarySample& u, Splats& out, Workspace&) const {
   const SceneFeatures& features = scene_->features();
   const dvec2 raster = u.raster();
-  const auto start = scene_->camera().emit(lens_numbers(u), raster);
+  const float time = time_number(u, *scene_);
+  const auto start = scene_->camera_emit(lens_numbers(u), raster, time);
   if (!start) return;
   Walk w;
   w.throughput = start->weight();
-  w.ray = {offset_origin(start->from.position, start->error, start->from.normal, start->direction),
-           start->direction, infinity};
+  w.ray = leaving(*start, time);
   w.state = limits_.paths.from_camera();
+  w.medium = scene_->camera_medium();
+  if (sensor_) add_to_sensor(*start, w, u, out);
   Surface s;
   for (;;) {
-    if (!scene_->intersect(w.ray, alpha_number(u, Stream::camera, w.bounces, features), s.hit)) {
-      return add_background(w, out);
+    Flight flight;
+    const EdgeNumbers edge = edge_numbers(u, Stream::camera, w.bounces, features);
+    const Arrival arrival = fly(*scene_, w.ray, w.medium, edge, s, flight);
+    if (arrival == Arrival::absorbed) return;
+    if (features.media) {
+      w.throughput *= flight.weight();
+      w.pdf *= mean(flight.transmittance);
     }
-    if (s.hit.primitive->light) add_emission(w, s.hit, out);
+    if (arrival == Arrival::nothing) return add_background(w, out);
+    if (arrival == Arrival::medium) {
+      add_medium_emission(w, s, out);
+    } else if (s.hit.primitive->light) {
+      add_emission(w, s.hit, out);
+    }
     if (w.bounces == limits_.max_bounces) return;
     ++w.bounces;
     const MaterialNumbers m = material_numbers(u, Stream::camera, w.bounces, features);
     if (!s.shade(*scene_, -w.ray.direction, m)) return;
+    if (features.dispersion) take_wavelength(w, s, u);
     if (next_event_ && s.connectible()) add_direct(w, s, u, out);
     if (w.bounces == limits_.max_bounces && !hittable_) return;
     if (!scatter(w, s, u)) return;
   }
+}
+
+// From the first surface on that asks for it.
+void Path::take_wavelength(Walk& w, const Surface& s, PrimarySample& u) const {
+  if (w.dispersed || !s.disperses(*scene_)) return;
+  w.dispersed = true;
+  w.throughput *= path_wavelength(u).colour;
 }
 
 // Light that the path met, weighted against having drawn the same point of the light.
@@ -102,7 +129,8 @@ void Path::add(const Walk& w, const Light& light, const EndpointPoint& at, const
   if (!limits_.paths.ends(light_letter(light.traits()), w.state)) return;
   float weight = 1.f;
   if (w.pdf > 0.f) {
-    const float drawn = scene_->lights().probability(&light) * light.pdf_toward(w.from, at);
+    const float drawn =
+        scene_->lights().probability(pick_, w.last, &light) * light.pdf_toward(w.last.position, at);
     weight = power_weight(w.pdf, drawn);
   }
   const auto bounces = static_cast<uint16_t>(w.bounces);
@@ -115,6 +143,15 @@ void Path::add_emission(const Walk& w, const Hit& hit, Splats& out) const {
       scene_->emitted(hit, -w.ray.direction), out);
 }
 
+// Light that the medium itself sends toward the path; nothing else finds it.
+void Path::add_medium_emission(const Walk& w, const Surface& s, Splats& out) const {
+  if (is_black(s.point().emission) || w.bounces < limits_.min_bounces) return;
+  if (!limits_.paths.ends(LightLetter::medium, w.state)) return;
+  out.camera(
+      w.throughput * s.point().emission,
+      {static_cast<uint16_t>(w.bounces), 0, static_cast<uint8_t>(std::min(w.bounces + 2, 255))});
+}
+
 void Path::add_background(const Walk& w, Splats& out) const {
   EndpointPoint at;
   at.normal = -w.ray.direction;
@@ -123,21 +160,39 @@ void Path::add_background(const Walk& w, Splats& out) const {
   }
 }
 
+// Light drawn for the camera's point, weighted against meeting it with the first ray.
+void Path::add_to_sensor(const Emission& start, Walk& w, PrimarySample& u, Splats& out) const {
+  w.pdf = start.pdf_direction;
+  w.last = sensor_receiver(start);
+  const SensorDraw draw(*scene_, pick_, start, w.ray.time, light_numbers(u, 0));
+  if (limits_.min_bounces > 0 || !draw.succeeded()) return;
+  if (!limits_.paths.ends(draw.letter(), w.state)) return;
+  const Passage way = draw.way();
+  if (!(way.visibility > 0.f)) return;
+  const float weight = power_weight(draw.pdf(), draw.met() * mean(way.transmittance));
+  out.camera(weight * way.light() * draw.value(), {0, 1, 1});
+}
+
 // Next event estimation, weighted against meeting the light by chance.
 void Path::add_direct(const Walk& w, const Surface& s, PrimarySample& u, Splats& out) const {
   if (w.bounces < limits_.min_bounces) return;
-  const LightDraw draw(*scene_, s.hit.position, light_numbers(u, w.bounces));
+  const LightDraw draw(*scene_, pick_, s, light_numbers(u, w.bounces));
   if (!draw.succeeded()) return;
   if (!limits_.paths.ends(draw.letter(), limits_.paths.camera_step(w.state, false))) return;
   const Toward& t = draw.toward();
   const Rgb f = s.f_cos(t.wi, Transport::radiance);
   if (is_black(f)) return;
-  const float weight = draw.delta() ? 1.f : power_weight(draw.pdf(), s.pdf(t.wi));
-  const Rgb value = w.throughput * f * t.value * (weight / draw.pdf());
+  const Rgb value = w.throughput * f * t.value / draw.pdf();
   if (is_black(value)) return;
-  const float visible = scene_->visibility(s.segment(t));
+  const Passage way = passage(*scene_, s.segment(t), s.medium_toward(t.wi));
+  if (!(way.visibility > 0.f)) return;
+  float weight = 1.f;
+  if (draw.hittable()) {
+    weight = power_weight(draw.pdf(), s.pdf(t.wi) * mean(way.transmittance));
+  }
   const auto bounces = static_cast<uint16_t>(w.bounces);
-  out.camera(visible * value, {bounces, 1, static_cast<uint8_t>(std::min(w.bounces + 1, 255))});
+  out.camera(weight * way.light() * value,
+             {bounces, 1, static_cast<uint8_t>(std::min(w.bounces + 1, 255))});
 }
 
 // Chooses the next direction; false where the path ends.
@@ -152,8 +207,9 @@ bool Path::scatter(Walk& w, const Surface& s, PrimarySample& u) const {
   w.throughput /= q;
   w.state = limits_.paths.camera_step(w.state, next->delta);
   w.pdf = next->delta || !next_event_ ? 0.f : next->pdf;
-  w.from = s.hit.position;
+  w.last = light_receiver(*scene_, pick_, s);
   w.ray = s.spawn(next->wi);
+  w.medium = s.medium_toward(next->wi);
   return !limits_.paths.camera_dead(w.state);
 }
 

@@ -28,6 +28,12 @@ class PointLight final : public Light {
 
   EndpointTraits traits() const override { return {.delta_position = true}; }
   float power() const override { return 4.f * pi * luminance(intensity_); }
+  std::optional<LightBounds> bounds() const override {
+    LightBounds b;
+    b.box.add(position_);
+    b.intensity = luminance(intensity_);
+    return b;
+  }
 
   std::optional<Emission> emit(const vec2&, const dvec2& u_direction) const override {
     Emission e;

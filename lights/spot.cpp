@@ -61,6 +61,14 @@ class SpotLight final : public Light {
 
   EndpointTraits traits() const override { return {.delta_position = true}; }
   float power() const override { return solid_angle() * luminance(intensity_); }
+  std::optional<LightBounds> bounds() const override {
+    LightBounds b;
+    b.box.add(position_);
+    b.normals = {frame_.n, static_cast<float>(cos_end_)};
+    b.cos_spread = 1.f;
+    b.intensity = luminance(intensity_);
+    return b;
+  }
 
   std::optional<Emission> emit(const vec2&, const dvec2& u_direction) const override {
     const float z = sample_height(u_direction.x);

@@ -1,4 +1,5 @@
 // Image files through OpenImageIO.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #include "core/image/image_file.h"
 #include "core/plugin/plugin.h"
@@ -19,21 +21,28 @@ namespace {
   throw Error("cannot read image " + path + ": " + reason);
 }
 
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 // Libraries for JPEG fill what is missing with grey and only warn. Inside the scan no marker can
 // occur, so that a complete file has its last end marker after its last start of scan.
-void check_jpeg_complete(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+void check_jpeg_complete(const std::string& path, std::string_view bytes) {
   const size_t scan = bytes.rfind("\xFF\xDA"), end = bytes.rfind("\xFF\xD9");
   if (end == std::string::npos || scan == std::string::npos || end < scan)
     fail_read(path, "the file is truncated");
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path) {
+// `memory`: where the bytes are; null: in the file.
+std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const std::string& file,
+                                             OIIO::Filesystem::IOProxy* memory) {
   OIIO::ImageSpec configuration;
   // Colours as stored, not multiplied by alpha.
   configuration["oiio:UnassociatedAlpha"] = 1;
-  auto input = OIIO::ImageInput::open(path, &configuration);
+  // Readers that are given a configuration look for the proxy there.
+  if (memory) configuration.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &memory);
+  auto input = OIIO::ImageInput::open(file, &configuration, memory);
   if (!input) fail_read(path, OIIO::geterror());
   return input;
 }
@@ -54,8 +63,8 @@ bool is_integer(OIIO::TypeDesc::BASETYPE type) {
          type != OIIO::TypeDesc::DOUBLE;
 }
 
-void read(const std::string& path, ImageFile& out) {
-  const auto input = open_image(path);
+bool read(const std::string& path, OIIO::ImageInput& opened, ImageFile& out) {
+  OIIO::ImageInput* const input = &opened;
   const OIIO::ImageSpec spec = input->spec();
   check_size(path, spec);
   out.width = spec.width;
@@ -78,7 +87,21 @@ void read(const std::string& path, ImageFile& out) {
     done = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, out.floats.data());
   }
   if (!done || input->has_error()) fail_read(path, input->geterror());
-  if (std::string(input->format_name()) == "jpeg") check_jpeg_complete(path);
+  return std::string_view(input->format_name()) == "jpeg";
+}
+
+void read_file(const std::string& path, ImageFile& out) {
+  const auto input = open_image(path, path, nullptr);
+  if (read(path, *input, out)) check_jpeg_complete(path, bytes_of(path));
+}
+
+void read_bytes(const EmbeddedFile& file, ImageFile& out) {
+  OIIO::Filesystem::IOMemReader memory(file.bytes.data(), file.bytes.size());
+  const auto input = open_image(file.name, "embedded." + file.ending, &memory);
+  const bool jpeg = read(file.name, *input, out);
+  input->close();
+  const std::string_view text(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+  if (jpeg) check_jpeg_complete(file.name, text);
 }
 
 // Writes one image of a type that `data` holds. Throws Failure.
@@ -136,9 +159,18 @@ void write_exr(const std::string& path, const Image& image, const ImageMetadata&
 }  // namespace
 }  // namespace pssmlt
 
+PSSMLT_EXPORT void pssmlt_read_image_bytes(const pssmlt::EmbeddedFile& file,
+                                           pssmlt::ImageFile& out) {
+  try {
+    pssmlt::read_bytes(file, out);
+  } catch (const std::bad_alloc&) {
+    pssmlt::fail_read(file.name, "it is too large for the memory");
+  }
+}
+
 PSSMLT_EXPORT void pssmlt_read_image(const std::string& path, pssmlt::ImageFile& out) {
   try {
-    pssmlt::read(path, out);
+    pssmlt::read_file(path, out);
   } catch (const std::bad_alloc&) {
     pssmlt::fail_read(path, "it is too large for the memory");
   }
@@ -163,5 +195,6 @@ PSSMLT_EXPORT void pssmlt_write_bytes(const std::string& path, const std::string
 }
 
 static_assert(std::is_same_v<decltype(pssmlt_read_image), pssmlt::ReadFunction>);
+static_assert(std::is_same_v<decltype(pssmlt_read_image_bytes), pssmlt::ReadBytesFunction>);
 static_assert(std::is_same_v<decltype(pssmlt_write_image), pssmlt::WriteFunction>);
 static_assert(std::is_same_v<decltype(pssmlt_write_bytes), pssmlt::WriteBytesFunction>);

@@ -11,6 +11,7 @@ import sys
 from generator.bidir_room import bidir_room
 from generator.door_ajar import door_ajar
 from generator.env_garden import env_garden
+from generator.fur_balls import fur_balls
 from generator.glass_caustics import glass_caustics
 from generator.mis_plates import mis_plates
 
@@ -19,7 +20,7 @@ def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
     for name, scene in (("door-ajar", door_ajar), ("glass-caustics", glass_caustics),
                         ("bidir-room", bidir_room), ("mis-plates", mis_plates),
-                        ("env-garden", env_garden)):
+                        ("env-garden", env_garden), ("fur-balls", fur_balls)):
         text = scene()
         with open(os.path.join(folder, name + ".txt"), "w", encoding="ascii", newline="\n") as file:
             file.write(text)

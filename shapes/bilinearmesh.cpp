@@ -1,15 +1,37 @@
 // Bilinear patches: four corners each, p(0,0) p(1,0) p(0,1) p(1,1).
 //
 // Patches that are parallelograms (walls, lamps) become pairs of triangles, which are the same
-// surface and faster; all others are kept as patches, curved or not (core/shapes/patch_shape.h).
+// surface and faster, unless their points are chosen by an image; all others are kept as patches,
+// curved or not (core/shapes/patch_shape.h).
+#include <algorithm>
 #include <memory>
 
+#include "core/light_image.h"
 #include "core/plugin/plugin.h"
 #include "core/shapes/mesh_shape.h"
 #include "core/shapes/patch_shape.h"
 
 namespace pssmlt {
 namespace {
+
+// Luminances, each the largest around it, since lamps interpolate.
+Distribution2D read_emission(const std::string& file, const PatchData& data, const Parameters& p) {
+  if (!data.uvs.empty())
+    p.fail("emissionfilename",
+           "an image of emission needs the patches' own coordinates, no \"uv\"");
+  const LightImage image = read_light_image(p, file);
+  std::vector<float> weights;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      float most = 0.f;
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, image.height - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, image.width - 1); ++i)
+          most = std::max(most, luminance(image.at(i, j)));
+      weights.push_back(most);
+    }
+  }
+  return {std::span<const float>(weights), image.width, image.height};
+}
 
 PatchData read(Parameters& p) {
   PatchData data;
@@ -18,10 +40,11 @@ PatchData read(Parameters& p) {
   data.positions = p.points3("P", "m", "Positions of the vertices.");
   data.normals = p.normals("N", "Shading normals of the vertices.");
   data.uvs = p.points2("uv", "", "Texture coordinates of the vertices.");
+  const std::string emission = p.file(
+      "emissionfilename",
+      "Image of the emission over (u, v): where points of a lamp are chosen, not what it emits.");
   p.integers("faceIndices", "", "A number per patch for textures per face; none exist here.");
   if (p.describing()) return data;
-  if (p.has("emissionfilename"))
-    p.fail("emissionfilename", "images of emission on patches are not supported yet");
   if (data.positions.empty()) p.fail("P", "vertex positions \"P\" are missing or empty");
   const size_t count = data.positions.size();
   if (indices.empty() && count == 4) indices = {0, 1, 2, 3};
@@ -31,6 +54,7 @@ PatchData read(Parameters& p) {
     p.fail("N", "there must be as many normals as vertices");
   if (!data.uvs.empty() && data.uvs.size() != count)
     p.fail("uv", "there must be as many texture coordinates as vertices");
+  if (!emission.empty()) data.emission = read_emission(emission, data, p);
   data.quads.resize(indices.size() / 4);
   for (size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] < 0 || static_cast<size_t>(indices[i]) >= count)
@@ -77,7 +101,8 @@ MeshData as_triangles(const PatchData& data) {
 std::unique_ptr<Shape> make(Parameters& p) {
   PatchData data = read(p);
   if (p.describing()) return nullptr;
-  if (all_parallelograms(data)) return std::make_unique<MeshShape>(as_triangles(data), p);
+  if (all_parallelograms(data) && !(data.emission.sum() > 0.0))
+    return std::make_unique<MeshShape>(as_triangles(data), p);
   return std::make_unique<PatchShape>(std::move(data), p);
 }
 
@@ -97,6 +122,8 @@ class BilinearMesh final : public Shape {
   std::optional<SurfaceSample> sample_toward(const vec3& reference, const vec2& u) const override {
     return shape_->sample_toward(reference, u);
   }
+  bool may_face(const vec3& reference) const override { return shape_->may_face(reference); }
+  DirectionCone normals() const override { return shape_->normals(); }
   float pdf_area(const SurfaceSample& at) const override { return shape_->pdf_area(at); }
   float pdf_toward(const vec3& reference, const SurfaceSample& at) const override {
     return shape_->pdf_toward(reference, at);

@@ -38,6 +38,7 @@ class Disk final : public QuadricShape {
     }
   }
   bool may_face(const vec3& reference) const override { return plane_.may_face(reference); }
+  DirectionCone normals() const override { return {plane_.normal, 1.f}; }
 
  protected:
   Local at(const dvec2& uv) const override {

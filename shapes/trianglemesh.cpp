@@ -16,6 +16,11 @@ MeshData read(Parameters& p) {
   data.mesh.normals = p.normals("N", "Shading normals of the vertices.");
   data.mesh.uvs = p.points2("uv", "", "Texture coordinates of the vertices.");
   data.tangents = p.vectors3("S", "Tangents of the vertices.");
+  data.mesh.second_uvs = p.points2("uv1", "", "A second set of texture coordinates (uvset 1).");
+  data.mesh.colors =
+      p.rgbs("color", "", "Colours of the vertices, for the texture \"vertexcolor\".");
+  data.mesh.opacities =
+      p.numbers("coloralpha", "", "Opacities of the vertices, for the texture \"vertexcolor\".");
   p.integers("faceIndices", "", "A number per triangle for textures per face; none exist here.");
   if (p.describing()) return data;
   if (data.mesh.positions.empty()) p.fail("P", "vertex positions \"P\" are missing or empty");

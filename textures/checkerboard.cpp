@@ -24,7 +24,7 @@ class Checkerboard final : public Texture<T> {
   explicit Checkerboard(Parameters& p)
       : first_(value_texture<T>(p, "tex1", 1.f, "value at the origin's cell")),
         second_(value_texture<T>(p, "tex2", 0.f, "value of the others")),
-        to_texture_(p.transform().inverse()) {
+        solid_mapping_(p) {
     const int dimension = p.integer("dimension", 2, "", "2: squares in (s, t); 3: cubes in space");
     if (dimension != 2 && dimension != 3) p.fail("dimension", "the dimension must be 2 or 3");
     if (dimension == 2) mapping_.emplace(p);
@@ -39,12 +39,12 @@ class Checkerboard final : public Texture<T> {
       const vec2 st = mapping_->map(hit);
       return is_odd(st.x) != is_odd(st.y);
     }
-    const vec3 p = to_texture_.point(hit.position);
+    const vec3 p = solid_mapping_.map(hit);
     return (is_odd(p.x) != is_odd(p.y)) != is_odd(p.z);
   }
 
   std::shared_ptr<const Texture<T>> first_, second_;
-  Transform to_texture_;
+  TextureMapping3D solid_mapping_;
   std::optional<TextureMapping2D> mapping_;
 };
 

@@ -7,10 +7,10 @@
 
 #include "app/compare/text.h"
 #include "app/parse_numbers.h"
+#include "app/read_scene.h"
 #include "core/base/log.h"
 #include "core/base/random.h"
 #include "core/render/checkpoint.h"
-#include "core/scene/parser.h"
 #include "core/scene/suggest.h"
 
 namespace pssmlt::compare {
@@ -126,7 +126,7 @@ LoadedScene load_scene(const SceneRequest& request, const Technique& first) {
   const auto start = std::chrono::steady_clock::now();
   LoadedScene loaded;
   std::vector<std::string> log;
-  loaded.description = parse_file(request.file, &log);
+  loaded.description = read_scene(request.file, &log);
   loaded.built = build_scene(loaded.description, options_for(first, request.build));
   loaded.load_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

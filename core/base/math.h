@@ -18,7 +18,9 @@ namespace pssmlt {
 using glm::dmat4;
 using glm::dvec2;
 using glm::dvec3;
+using glm::dvec4;
 using glm::ivec2;
+using glm::ivec3;
 using glm::mat3;
 using glm::vec2;
 using glm::vec3;

@@ -19,6 +19,7 @@ struct Ray {
   vec3 origin{0.f};
   vec3 direction{0.f, 0.f, 1.f};  // unit length
   float t_max = infinity;         // [m]
+  float time = 0.f;               // in the motion's interval, from 0 to 1
 };
 
 // Origin for a ray leaving `position` toward `direction`: moved along the geometric normal to the

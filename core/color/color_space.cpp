@@ -46,6 +46,15 @@ glm::dmat3 bradford(const dvec3& from, const dvec3& to) {
   return glm::inverse(cone) * scale * cone;
 }
 
+// Chromaticity of CIE daylight (CIE 015:2018, section 4.1.2), for 4000 K to 25000 K. Temperatures
+// are in the scale of 1968, which had another second radiation constant.
+dvec2 daylight(double temperature) {
+  const double t = 1e3 / (temperature * 1.4388 / 1.4380);
+  const double x = temperature <= 7000. ? 0.244063 + t * (0.09911 + t * (2.9678 - t * 4.6070))
+                                        : 0.237040 + t * (0.24748 + t * (1.9018 - t * 2.0064));
+  return {x, -0.275 + x * (2.870 - x * 3.000)};
+}
+
 struct Conversions {
   glm::dmat3 light, factor;
 };
@@ -66,6 +75,14 @@ std::array<Conversions, definitions.size()> all_conversions() {
 const glm::dmat3& rec709_from_xyz() {
   static const glm::dmat3 matrix = glm::inverse(xyz_from(definitions[0]));
   return matrix;
+}
+
+glm::dmat3 white_balance(double temperature) {
+  const dvec3 seen = temperature >= 4000.
+                         ? xyz_of(daylight(temperature))
+                         : emission_xyz(blackbody_samples(temperature), Outside::Clamp);
+  const glm::dmat3 adapted = bradford(seen, d65_white()) * glm::inverse(rec709_from_xyz());
+  return rec709_from_xyz() * adapted;
 }
 
 const glm::dmat3* rec709_from(std::string_view color_space, SpectrumUse use) {

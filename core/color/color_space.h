@@ -23,4 +23,8 @@ const glm::dmat3* rec709_from(std::string_view color_space, SpectrumUse use);
 
 const std::vector<std::string>& color_space_names();
 
+// Linear Rec.709 in which light of a temperature [K] becomes the white of Rec.709 (Bradford):
+// CIE daylight from 4000 K on, a black body below. Throws nothing; temperature in 100 K to 25000 K.
+glm::dmat3 white_balance(double temperature);
+
 }  // namespace pssmlt

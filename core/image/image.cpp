@@ -13,6 +13,7 @@
 #include <span>
 
 #include "core/base/error.h"
+#include "core/image/embedded_file.h"
 #include "core/image/encoding.h"
 #include "core/image/image_file.h"
 #include "core/plugin/registry.h"
@@ -113,7 +114,11 @@ int ImageFile::find(const std::string& name) const {
 
 ImageFile read_image_file(const std::string& path) {
   ImageFile file;
-  module_function<ReadFunction>("image_io", read_symbol)(path, file);
+  if (const auto embedded = find_embedded_file(path)) {
+    module_function<ReadBytesFunction>("image_io", read_bytes_symbol)(*embedded, file);
+  } else {
+    module_function<ReadFunction>("image_io", read_symbol)(path, file);
+  }
   return file;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/image/embedded_file.h"
 #include "core/image/image.h"
 
 namespace pssmlt {
@@ -20,7 +21,8 @@ struct ImageFile {
   int find(const std::string& name) const;
 };
 
-// As stored. Throws Error with the file and the reason: missing, not an image, truncated.
+// As stored; also of embedded files (core/image/embedded_file.h). Throws Error with the file and
+// the reason: missing, not an image, truncated.
 ImageFile read_image_file(const std::string& path);
 // As floats, decoded as read_image() says.
 Image decode_image(const ImageFile& file, const std::string& encoding);
@@ -28,6 +30,8 @@ Image decode_image(const ImageFile& file, const std::string& encoding);
 // Module "image_io".
 inline constexpr const char* read_symbol = "pssmlt_read_image";
 using ReadFunction = void(const std::string& path, ImageFile& out);
+inline constexpr const char* read_bytes_symbol = "pssmlt_read_image_bytes";
+using ReadBytesFunction = void(const EmbeddedFile& file, ImageFile& out);
 // `format`: the file's ending. Floats. Throws Failure.
 inline constexpr const char* write_symbol = "pssmlt_write_image";
 using WriteFunction = void(const std::string& path, const std::string& format, const Image& image,

@@ -8,9 +8,6 @@
 namespace pssmlt {
 namespace {
 
-// Widens the ellipse with half axes long and short (perpendicular or not) until it is at most this
-// times as long as wide: the cost of a lookup is bounded, at the price of some blur.
-constexpr float most_anisotropy = 16.f;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 bool has_transparency(const ImageFile& file, int alpha) {
@@ -41,6 +38,16 @@ float decoded_value(const ImageFile& file, size_t at, const Encoding& encoding) 
   if (!file.bytes.empty()) return encoding.to_linear(static_cast<float>(file.bytes[at]) / 255.f);
   return file.integer ? encoding.to_linear(file.floats[at]) : file.floats[at];
 }
+
+// The coordinate near the image that stands for s: no finite one overflows an integer.
+float reduced(float s, TextureWrap wrap) {
+  if (wrap == TextureWrap::repeat) return s - std::floor(s);
+  if (wrap == TextureWrap::octahedral_sphere) return s - 2.f * std::floor(0.5f * s);
+  return std::clamp(s, -2.f, 3.f);
+}
+
+// How often n goes into i, rounded down.
+int floor_quotient(int i, int n) { return i >= 0 ? i / n : -((n - 1 - i) / n); }
 
 }  // namespace
 
@@ -135,6 +142,12 @@ typename Mipmap<T>::Level Mipmap<T>::half(const Level& level, const Encoding& en
     return std::max(0.f, std::min(s.to, low + 1.f) - std::max(s.from, low));
   };
   const bool is_linear_table = decoded_[128] == 128.f / 255.f;
+  const size_t count = static_cast<size_t>(result.width) * static_cast<size_t>(result.height);
+  if (level.bytes.empty()) {
+    result.floats.reserve(count * channels);
+  } else {
+    result.bytes.reserve(count * channels);
+  }
   const auto store = [&](float v) {
     if (level.bytes.empty()) return result.floats.push_back(v);
     const float stored = is_linear_table ? v : encoding.from_linear(v);
@@ -167,18 +180,16 @@ size_t Mipmap<T>::bytes() const {
 
 template <typename T>
 int Mipmap<T>::wrapped(int i, int size, TextureWrap wrap) {
-  if (i >= 0 && i < size) return i;
+  if ((i >= 0 && i < size) || wrap == TextureWrap::octahedral_sphere) return i;
   if (wrap == TextureWrap::black) return -1;
   if (wrap == TextureWrap::clamp) return i < 0 ? 0 : size - 1;
   const int rest = i % size;
   return rest < 0 ? rest + size : rest;
 }
 
-// Reduces s first, so that no finite coordinate overflows an integer.
 template <typename T>
 typename Mipmap<T>::Axis Mipmap<T>::axis(float s, int size, TextureWrap wrap) {
-  const float inside = wrap == TextureWrap::repeat ? s - std::floor(s) : std::clamp(s, -2.f, 3.f);
-  const float x = inside * static_cast<float>(size) - 0.5f;
+  const float x = reduced(s, wrap) * static_cast<float>(size) - 0.5f;
   const float low = std::floor(x);
   const int i = static_cast<int>(low);
   return {wrapped(i, size, wrap), wrapped(i + 1, size, wrap), x - low};
@@ -204,11 +215,21 @@ T Mipmap<T>::texel(const Level& level, int x, int y) const {
 }
 
 template <typename T>
+T Mipmap<T>::at(const Level& level, int x, int y, TextureWrap wrap) const {
+  if (wrap != TextureWrap::octahedral_sphere) return texel(level, x, y);
+  const int across = floor_quotient(x, level.width), down = floor_quotient(y, level.height);
+  x -= across * level.width;
+  y -= down * level.height;
+  if (((across + down) & 1) == 0) return texel(level, x, y);
+  return texel(level, level.width - 1 - x, level.height - 1 - y);
+}
+
+template <typename T>
 T Mipmap<T>::point(const vec2& st, TextureWrap wrap) const {
   if (!std::isfinite(st.x) || !std::isfinite(st.y)) return T(nan);
   const Level& level = levels_[0];
   const Axis x = axis(st.x, level.width, wrap), y = axis(st.y, level.height, wrap);
-  return texel(level, x.fraction < 0.5f ? x.low : x.high, y.fraction < 0.5f ? y.low : y.high);
+  return at(level, x.fraction < 0.5f ? x.low : x.high, y.fraction < 0.5f ? y.low : y.high, wrap);
 }
 
 template <typename T>
@@ -216,10 +237,10 @@ T Mipmap<T>::bilinear(size_t index, const vec2& st, TextureWrap wrap) const {
   if (!std::isfinite(st.x) || !std::isfinite(st.y)) return T(nan);
   const Level& level = levels_[index];
   const Axis x = axis(st.x, level.width, wrap), y = axis(st.y, level.height, wrap);
-  const T upper =
-      texel(level, x.low, y.low) * (1.f - x.fraction) + texel(level, x.high, y.low) * x.fraction;
-  const T lower =
-      texel(level, x.low, y.high) * (1.f - x.fraction) + texel(level, x.high, y.high) * x.fraction;
+  const auto row = [&](int j) {
+    return at(level, x.low, j, wrap) * (1.f - x.fraction) + at(level, x.high, j, wrap) * x.fraction;
+  };
+  const T upper = row(y.low), lower = row(y.high);
   return upper * (1.f - y.fraction) + lower * y.fraction;
 }
 
@@ -242,7 +263,7 @@ T Mipmap<T>::trilinear(const vec2& st, float width, TextureWrap wrap) const {
 }
 
 template <typename T>
-T Mipmap<T>::ewa(const vec2& st, vec2 d0, vec2 d1, TextureWrap wrap) const {
+T Mipmap<T>::ewa(const vec2& st, vec2 d0, vec2 d1, TextureWrap wrap, float most_anisotropy) const {
   if (glm::dot(d0, d0) < glm::dot(d1, d1)) std::swap(d0, d1);
   const float longer = glm::length(d0);
   float shorter = glm::length(d1);
@@ -268,9 +289,7 @@ T Mipmap<T>::ellipse(size_t index, const vec2& st, const vec2& d0, const vec2& d
   if (!std::isfinite(st.x) || !std::isfinite(st.y)) return T(nan);
   const Level& level = levels_[index];
   const vec2 size(static_cast<float>(level.width), static_cast<float>(level.height));
-  vec2 inside = st;
-  if (wrap == TextureWrap::repeat) inside -= glm::floor(st);
-  const vec2 center = glm::clamp(inside, -2.f, 3.f) * size - 0.5f;
+  const vec2 center = vec2(reduced(st.x, wrap), reduced(st.y, wrap)) * size - 0.5f;
   // Implicit form A x^2 + B x y + C y^2 < F of the ellipse with half axes d0/2, d1/2 (Heckbert,
   // section 3.5.8), at least about one texel wide so that it never falls between texels.
   const vec2 a0 = 0.5f * d0 * size, a1 = 0.5f * d1 * size;
@@ -292,7 +311,8 @@ T Mipmap<T>::ellipse(size_t index, const vec2& st, const vec2& d0, const vec2& d
       if (r2 >= 1.f) continue;
       // A Gaussian that ends at 0 where the ellipse does.
       const float weight = std::exp(-2.f * r2) - std::exp(-2.f);
-      sum += texel(level, wrapped(x, level.width, wrap), wrapped(y, level.height, wrap)) * weight;
+      sum +=
+          at(level, wrapped(x, level.width, wrap), wrapped(y, level.height, wrap), wrap) * weight;
       weights += weight;
     }
   }

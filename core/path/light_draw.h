@@ -5,17 +5,34 @@
 
 #include "core/path/numbers.h"
 #include "core/path/path_expression.h"
+#include "core/path/surface.h"
 #include "core/scene/scene.h"
 
 namespace pssmlt {
 
+// The parameter of integrators that draw lights.
+LightPick read_light_pick(Parameters& p);
+
+// A shaded surface as a receiver of light: the normal on the side where the path is, which for
+// surfaces that transmit nothing is the side of both its directions. Only the position where the
+// pick asks for nothing else.
+inline LightReceiver light_receiver(const Scene& scene, LightPick pick, const Surface& surface) {
+  LightReceiver at{.position = surface.hit.position};
+  if (!scene.lights().by_place(pick) || surface.in_medium()) return at;
+  at.normal = surface.facing_normal();
+  at.transmits = surface.hit.primitive->transmits;
+  return at;
+}
+
 class LightDraw {
  public:
-  LightDraw(const Scene& scene, const vec3& reference, const LightNumbers& u)
-      : choice_(scene.lights().choose(u.choice)),
-        toward_(choice_.light ? choice_.light->toward(reference, u.position) : std::nullopt) {
+  LightDraw(const Scene& scene, LightPick pick, const LightReceiver& at, const LightNumbers& u)
+      : choice_(scene.lights().choose(pick, at, u.choice)),
+        toward_(choice_.light ? choice_.light->toward(at.position, u.position) : std::nullopt) {
     if (toward_) traits_ = choice_.light->traits();
   }
+  LightDraw(const Scene& scene, LightPick pick, const Surface& surface, const LightNumbers& u)
+      : LightDraw(scene, pick, light_receiver(scene, pick, surface), u) {}
   LightDraw(const LightDraw&) = delete;
   LightDraw& operator=(const LightDraw&) = delete;
 
@@ -26,7 +43,9 @@ class LightDraw {
   const Toward& toward() const { return *toward_; }
   // Density of the whole draw [1/sr at the reference; see Toward::pdf_toward].
   float pdf() const { return choice_.probability * toward_->pdf_toward; }
-  bool delta() const { return traits_.delta_position || traits_.delta_direction; }
+  // Probability of choosing the light to emit, over that of having drawn it here.
+  float emitted_over_drawn() const { return choice_.emission / choice_.probability; }
+  bool hittable() const { return traits_.hittable(); }
   LightLetter letter() const { return light_letter(traits_); }
 
  private:

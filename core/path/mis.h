@@ -33,18 +33,20 @@ class Mis {
   double f(double ratio) const { return std::min(power_ ? ratio * ratio : ratio, 0x1p500); }
 
   // After the first edge. connect: density of drawing the endpoint from the first vertex [1/sr, or
-  // as Toward::pdf_toward], 0 if no strategy does; emit: pdf_position * pdf_direction; cosines at
-  // the endpoint and at the vertex (geometric); hittable: paths from the other side can end on it.
+  // as Toward::pdf_toward], 0 if no strategy does; emit: pdf_position * pdf_direction; cosine at
+  // the endpoint (geometric); arrival: Surface::arrival() of the vertex; pass: probability that a
+  // path from the other side gets to the endpoint through media, 0 if none can end on it.
   // The length of the edge cancels, also for endpoints at infinity.
-  MisPartial first(double connect, double emit, double cos_endpoint, double cos_vertex,
-                   bool hittable) const {
-    const double density = emit * cos_vertex / cos_endpoint;
-    return {f(connect / density), hittable ? f(1.0 / density) : 0.0};
+  MisPartial first(double connect, double emit, double cos_endpoint, double arrival,
+                   double pass) const {
+    const double density = emit * arrival / cos_endpoint;
+    return {f(connect / density), f(pass / density)};
   }
 
   // After an edge from a scattering vertex with `from`: pdf of the direction taken [1/sr; delta: 1]
-  // and of the reverse, cosines at the edge's start and end (geometric), squared length. A light at
-  // infinity that the edge ends on: cos_end = distance2 = 1.
+  // and of the reverse, Surface::arrival() (without media the geometric cosine) at the edge's start
+  // and end, squared length. A light at infinity that the edge ends on: distance2 = 1 and cos_end
+  // the probability of getting there through media.
   MisPartial next(const MisPartial& from, double pdf, double pdf_reverse, bool delta,
                   double cos_start, double cos_end, double distance2) const {
     const double back = f(pdf_reverse) * from.deeper;

@@ -25,11 +25,13 @@ enum Letter : uint8_t {
   delta_light = 4,
   diffuse = 8,
   specular = 16,
-  eye = 32
+  eye = 32,
+  volume = 64
 };
 
 uint8_t light_mask(LightLetter light) {
-  return static_cast<uint8_t>(1u << static_cast<unsigned>(light));
+  constexpr uint8_t masks[] = {area, infinite, delta_light, volume};
+  return masks[static_cast<size_t>(light)];
 }
 uint8_t vertex_mask(bool delta) { return delta ? specular : diffuse; }
 
@@ -41,8 +43,10 @@ uint8_t mask_of(char c) {
       return infinite;
     case 'P':
       return delta_light;
+    case 'V':
+      return volume;
     case 'L':
-      return area | infinite | delta_light;
+      return area | infinite | delta_light | volume;
     case 'D':
       return diffuse;
     case 'S':
@@ -172,7 +176,7 @@ class Syntax {
     throw Error(where_, "path expression \"" + std::string(text_.substr(0, 80)) + "\" " + what);
   }
   [[noreturn]] void fail_here(
-      const std::string& expected = "A, I, P, L, D, S, '.', E or '(' expected") const {
+      const std::string& expected = "A, I, P, V, L, D, S, '.', E or '(' expected") const {
     const std::string found =
         at_ < text_.size() ? "'" + std::string(1, text_[at_]) + "'" : std::string("its end");
     fail("has " + found + " at character " + std::to_string(at_ + 1) + ": " + expected);
@@ -206,7 +210,7 @@ class PathAutomaton {
     e.camera_dead_ = camera.state(Set());
     Set first, last;
     for (const auto& c : syntax.conjuncts()) first |= c.first, last |= c.last;
-    for (const LightLetter l : {LightLetter::area, LightLetter::infinite, LightLetter::delta})
+    for (const LightLetter l : light_letters)
       e.light_start_[static_cast<size_t>(l)] = light.state(light.only(first, light_mask(l)));
     e.camera_start_ = camera.state(camera.only(last, eye));
     e.light_step_ = light.close();
@@ -263,7 +267,7 @@ class PathAutomaton {
   }
   // Do all states that paths lead to join? (The dead state is there even if none leads to it.)
   static bool all_join(const PathExpression& e) {
-    const std::vector<State> lights = reached({e.light_start_, e.light_start_ + 3}, e.light_step_);
+    const std::vector<State> lights = reached({e.light_start_, e.light_start_ + 4}, e.light_step_);
     const std::vector<State> cameras = reached({e.camera_start_}, e.camera_step_);
     for (const State l : lights)
       for (const State c : cameras)
@@ -292,7 +296,7 @@ PathExpression::PathExpression(std::string_view text, const Location& where) : t
 }
 
 bool PathExpression::matches(std::string_view path) const {
-  constexpr std::string_view lights = "AIP";
+  constexpr std::string_view lights = "AIPV";
   if (path.size() < 2 || path.back() != 'E') return false;
   const size_t light = lights.find(path.front());
   if (light == std::string_view::npos) return false;
@@ -308,8 +312,9 @@ bool PathExpression::disjoint(const PathExpression& a, const PathExpression& b,
                               const SceneFeatures& scene, int min_bounces, int max_bounces) {
   using Pair = std::pair<State, State>;
   std::set<Pair> level;
-  const bool present[] = {scene.area_lights, scene.infinite_lights, scene.delta_lights};
-  for (const LightLetter l : {LightLetter::area, LightLetter::infinite, LightLetter::delta})
+  const bool present[] = {scene.area_lights, scene.infinite_lights, scene.delta_lights,
+                          scene.emitting_media};
+  for (const LightLetter l : light_letters)
     if (present[static_cast<size_t>(l)]) level.insert({a.from_light(l), b.from_light(l)});
   for (int bounces = 0; bounces <= max_bounces && !level.empty(); ++bounces) {
     std::set<Pair> next;

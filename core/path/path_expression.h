@@ -1,7 +1,8 @@
 // Light path expressions (Heckbert 1990): regular expressions over the vertices of a path from the
 // light to the camera, to select path classes.
 //
-//   A finite area light   I environment   P delta light (point, spot, distant)   L any light
+//   A finite area light   I environment   P delta light (point, spot, distant)
+//   V a medium that emits (volume)   L any of these
 //   D scattering by a connectible lobe    S by a delta lobe    . either          E camera
 //   ( ) | * + ?  as usual;  & of whole expressions: both must accept
 //
@@ -19,11 +20,13 @@
 
 namespace pssmlt {
 
-enum class LightLetter : uint8_t { area, infinite, delta };
+enum class LightLetter : uint8_t { area, infinite, delta, medium };
+inline constexpr LightLetter light_letters[] = {LightLetter::area, LightLetter::infinite,
+                                                LightLetter::delta, LightLetter::medium};
 
 // The letter of a light with these traits.
 inline LightLetter light_letter(const EndpointTraits& traits) {
-  if (traits.delta_position || traits.delta_direction) return LightLetter::delta;
+  if (!traits.hittable()) return LightLetter::delta;
   return traits.infinite ? LightLetter::infinite : LightLetter::area;
 }
 
@@ -66,7 +69,7 @@ class PathExpression {
   // Indexed by state; two entries a state (connectible, delta) for the steps.
   std::vector<State> light_step_, camera_step_;
   std::vector<uint8_t> joins_;
-  State light_start_[3] = {0, 0, 0};
+  State light_start_[4] = {0, 0, 0, 0};
   State camera_start_ = 0;
   State light_dead_ = 0, camera_dead_ = 0;
   uint32_t camera_states_ = 1;

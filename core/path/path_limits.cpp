@@ -12,11 +12,12 @@ PathLimits::PathLimits(Parameters& p) {
       p.integer("mindepth", 0, "bounces", "paths with fewer scattering vertices are left out");
   max_bounces = p.integer("maxdepth", 5, "bounces",
                           "paths with more scattering vertices are left out; 0: emission only");
-  const std::string text =
-      p.text("paths", "L.*E",
-             "path classes to render, a light path expression (Heckbert 1990): A finite light, I "
-             "environment, P point, spot or distant light, L any light, D diffuse or rough, S "
-             "perfectly specular, . either, E camera, with ( ) | * + ? and &");
+  const std::string text = p.text(
+      "paths", "L.*E",
+      "path classes to render, a light path expression (Heckbert 1990): A finite light, I "
+      "environment, P point, spot, distant or hidden light, V a medium that emits, L any light, D "
+      "diffuse, rough or in a medium, S perfectly specular, . either, E camera, with ( ) | * + ? "
+      "and &");
   if (p.describing()) return;
   if (min_bounces < 0) p.fail("mindepth", "mindepth must not be negative");
   if (max_bounces < min_bounces || max_bounces > deepest) {

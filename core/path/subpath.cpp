@@ -1,32 +1,34 @@
 #include "core/path/subpath.h"
 
-#include "core/path/numbers.h"
+#include "core/path/flight.h"
 
 namespace pssmlt {
-SubpathTracer::SubpathTracer(const Scene& scene, const PathLimits& limits, Mis mis)
-    : scene_(scene), limits_(limits), mis_(mis) {
+SubpathTracer::SubpathTracer(const Scene& scene, const PathLimits& limits, Mis mis, LightPick pick)
+    : scene_(scene), limits_(limits), mis_(mis), pick_(pick) {
   // The vertex past the last scattering one only serves to meet a light.
-  const bool hittable = scene.features().area_lights || scene.features().infinite_lights;
+  const SceneFeatures& f = scene.features();
+  const bool hittable = f.area_lights || f.infinite_lights || f.emitting_media;
   camera_vertices_ = limits.max_bounces + (hittable ? 1 : 0);
 }
 
 void SubpathTracer::from_camera(PrimarySample& u, Subpath& path) const {
   path.clear();
-  const Camera& camera = scene_.camera();
   const dvec2 raster = u.raster();
   const vec2 lens = lens_numbers(u);
-  const auto start = camera.emit(lens, raster);
+  path.time = time_number(u, scene_);
+  const auto start = scene_.camera_emit(lens, raster, path.time);
   if (!start) return;
   path.start = *start;
   path.started = true;
-  path.traits = camera.traits();
-  walk(u, {Stream::camera, Transport::radiance, camera, false, camera_vertices_},
+  path.traits = scene_.camera().traits();
+  walk(u, {Stream::camera, Transport::radiance, nullptr, false, camera_vertices_},
        limits_.paths.from_camera(), path);
 }
 
 void SubpathTracer::from_light(PrimarySample& u, Subpath& path) const {
   path.clear();
   const EmissionNumbers n = emission_numbers(u);
+  path.time = time_number(u, scene_);
   const auto choice = scene_.lights().choose(n.choice);
   if (!choice.light) return;
   const auto start = choice.light->emit(n.position, dvec2(n.direction));
@@ -37,56 +39,94 @@ void SubpathTracer::from_light(PrimarySample& u, Subpath& path) const {
   path.probability = choice.probability;
   path.traits = choice.light->traits();
   if (path.traits.infinite) path.start.from.normal = path.start.direction;
-  const bool hittable = !path.traits.delta_position && !path.traits.delta_direction;
-  walk(u, {Stream::light, Transport::importance, *choice.light, hittable, limits_.max_bounces},
+  walk(u,
+       {Stream::light, Transport::importance, choice.light, path.traits.hittable(),
+        limits_.max_bounces},
        limits_.paths.from_light(light_letter(path.traits)), path);
 }
 
-// The endpoint's density counts with the probability of choosing it, in both strategies alike.
+// A light's densities count with the probability of choosing it: to emit, and to be drawn from the
+// vertex, which has been shaded.
 MisPartial SubpathTracer::first_mis(const Side& side, const Subpath& path, const PathVertex& v,
-                                    float cos_vertex) const {
+                                    const Rgb& transmittance) const {
   const Emission& e = path.start;
-  const double p = static_cast<double>(path.probability);
-  const double connect =
-      static_cast<double>(side.endpoint.pdf_toward(v.surface.hit.position, e.from));
+  const vec3& reference = v.surface.hit.position;
+  double connect = 0.0, chosen = 1.0;
+  if (side.light) {
+    const LightReceiver at = light_receiver(scene_, pick_, v.surface);
+    chosen = static_cast<double>(path.probability);
+    connect = static_cast<double>(scene_.lights().probability(pick_, at, side.light)) *
+              static_cast<double>(side.light->pdf_toward(reference, e.from));
+  } else {
+    connect = static_cast<double>(scene_.camera_pdf_toward(reference, e.from, path.time));
+  }
   const double emit = static_cast<double>(e.pdf_position) * static_cast<double>(e.pdf_direction);
-  return mis_.first(p * connect, p * emit, static_cast<double>(e.cosine),
-                    static_cast<double>(cos_vertex), side.hittable);
+  return mis_.first(connect, chosen * emit, static_cast<double>(e.cosine),
+                    static_cast<double>(v.surface.arrival(v.surface.wo, transmittance)),
+                    side.hittable ? static_cast<double>(mean(transmittance)) : 0.0);
+}
+
+SubpathTracer::Walk SubpathTracer::begin(const Side& side, const Subpath& path) const {
+  const Emission& start = path.start;
+  Walk w;
+  w.ray = leaving(start, path.time);
+  w.medium = side.camera() ? scene_.camera_medium()
+                           : scene_.light_medium(*path.light, start.from, start.direction);
+  w.throughput = start.weight() / path.probability;
+  w.begin = max_component(w.throughput);
+  return w;
 }
 
 void SubpathTracer::walk(PrimarySample& u, const Side& side, PathExpression::State state,
                          Subpath& path) const {
-  const SceneFeatures& features = scene_.features();
-  const Emission& start = path.start;
-  Walk w;
-  w.ray = {offset_origin(start.from.position, start.error, start.from.normal, start.direction),
-           start.direction, infinity};
-  w.throughput = start.weight() / path.probability;
-  w.begin = max_component(w.throughput);
+  Walk w = begin(side, path);
   w.state = state;
   if (!(w.begin > 0.f)) return;
   for (int k = 1; k <= side.max_vertices; ++k) {
-    PathVertex& v = path.push();
-    const float alpha = alpha_number(u, side.stream, k - 1, features);
-    if (!scene_.intersect(w.ray, alpha, v.surface.hit)) {
-      path.pop();
-      if (side.camera()) path.escape = escape(w, path, k);
-      return;
-    }
-    const float cos_vertex = std::abs(glm::dot(v.surface.hit.ng, w.ray.direction));
-    if (!(cos_vertex > 0.f)) return path.pop();
-    v.surface.wo = -w.ray.direction;
-    v.throughput = w.throughput;
-    v.state = w.state;
-    v.mis = k == 1 ? first_mis(side, path, v, cos_vertex) : next_mis(w, path, k, cos_vertex);
-    v.connectible = false;
+    if (!advance(u, side, k, w, path)) return;
+    PathVertex& v = path[k];
     if (k > limits_.max_bounces) return;
-    const MaterialNumbers m = material_numbers(u, side.stream, k, features);
+    const MaterialNumbers m = material_numbers(u, side.stream, k, scene_.features());
     if (!v.surface.shade(scene_, v.surface.wo, m)) return;
+    if (k == 1 && !side.camera()) v.mis = first_mis(side, path, v, w.transmittance);
     v.connectible = v.surface.connectible();
+    v.dispersed |= v.surface.disperses(scene_);
     v.joined_state = step(side, w.state, false);
     if (k == side.max_vertices || !scatter(u, side, v.surface, k, w)) return;
   }
+}
+
+bool SubpathTracer::advance(PrimarySample& u, const Side& side, int k, Walk& w,
+                            Subpath& path) const {
+  PathVertex& v = path.push();
+  Flight flight;
+  const EdgeNumbers edge = edge_numbers(u, side.stream, k - 1, scene_.features());
+  const Arrival arrival = fly(scene_, w.ray, w.medium, edge, v.surface, flight);
+  const vec3 back = -w.ray.direction;
+  if (scene_.features().media && arrival != Arrival::absorbed) {
+    w.transmittance = flight.transmittance;
+    w.throughput *= flight.weight();
+  }
+  if (arrival == Arrival::nothing && side.camera()) path.escape = escape(w, path, k);
+  const float reach = arrival == Arrival::surface || arrival == Arrival::medium
+                          ? v.surface.arrival(back, w.transmittance)
+                          : 0.f;
+  if (!(reach > 0.f)) {
+    path.pop();
+    return false;
+  }
+  v.surface.wo = back;
+  v.throughput = w.throughput;
+  v.state = w.state;
+  if (k > 1) {
+    v.mis = next_mis(w, path[k - 1], reach,
+                     length_squared(v.surface.hit.position - path.position(k - 1)));
+  } else if (side.camera()) {
+    v.mis = first_mis(side, path, v, w.transmittance);
+  }
+  v.connectible = false;
+  v.dispersed = path.dispersed_before(k);
+  return true;
 }
 
 PathExpression::State SubpathTracer::step(const Side& side, PathExpression::State s,
@@ -111,27 +151,24 @@ bool SubpathTracer::scatter(PrimarySample& u, const Side& side, const Surface& s
   w.pdf = s->pdf;
   w.pdf_reverse = s->pdf_reverse;
   w.delta = s->delta;
-  w.cosine = std::abs(glm::dot(surface.hit.ng, s->wi));
   w.ray = surface.spawn(s->wi);
+  w.medium = surface.medium_toward(s->wi);
   return side.camera() ? !limits_.paths.camera_dead(w.state) : !limits_.paths.light_dead(w.state);
 }
 
-MisPartial SubpathTracer::next_mis(const Walk& w, const Subpath& path, int k,
-                                   float cos_vertex) const {
-  const vec3 edge = path.position(k) - path.position(k - 1);
-  return mis_.next(path[k - 1].mis, static_cast<double>(w.pdf), static_cast<double>(w.pdf_reverse),
-                   w.delta, static_cast<double>(w.cosine), static_cast<double>(cos_vertex),
-                   static_cast<double>(length_squared(edge)));
+MisPartial SubpathTracer::next_mis(const Walk& w, const PathVertex& from, float cos_end,
+                                   float distance2) const {
+  const float cos_start = from.surface.arrival(w.ray.direction, w.transmittance);
+  return mis_.next(from.mis, static_cast<double>(w.pdf), static_cast<double>(w.pdf_reverse),
+                   w.delta, static_cast<double>(cos_start), static_cast<double>(cos_end),
+                   static_cast<double>(distance2));
 }
 
-// The camera subpath's edge k left the scene: its end is a direction, density per solid angle.
+// The camera subpath's edge k left the scene: its end is a direction, density per solid angle. The
+// vertex that was pushed for its end is still there.
 Escape SubpathTracer::escape(const Walk& w, const Subpath& path, int k) const {
   Escape out{k - 1, w.ray.direction, w.throughput, {}, w.state};
-  if (k > 1) {
-    out.mis =
-        mis_.next(path[k - 1].mis, static_cast<double>(w.pdf), static_cast<double>(w.pdf_reverse),
-                  w.delta, static_cast<double>(w.cosine), 1.0, 1.0);
-  }
+  if (k > 1) out.mis = next_mis(w, path[k - 1], mean(w.transmittance), 1.f);
   return out;
 }
 

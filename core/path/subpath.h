@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/path/light_draw.h"
 #include "core/path/mis.h"
 #include "core/path/path_expression.h"
 #include "core/path/surface.h"
@@ -11,13 +12,16 @@
 
 namespace pssmlt {
 
-// A surface vertex of a subpath.
+// A vertex of a subpath, on a surface or in a medium.
 struct PathVertex {
   Surface surface;
   Rgb throughput{0.f};  // of the path that arrives here, before it scatters
   MisPartial mis;
   PathExpression::State state = 0;  // of the path up to here, this vertex's own letter excluded
   bool connectible = false;         // has been shaded and can be joined
+  // The path has a wavelength, from this vertex or an earlier one; the throughput does not have its
+  // colour.
+  bool dispersed = false;
   // State with this vertex taken as joined, i.e. connectible (filled if connectible).
   PathExpression::State joined_state = 0;
 };
@@ -31,14 +35,15 @@ struct Escape {
   PathExpression::State state = 0;
 };
 
-// Vertex 0 is the endpoint (`start`), surface vertices are 1 ... size(). Memory is kept between
+// Vertex 0 is the endpoint (`start`), scattering vertices are 1 ... size(). Memory is kept between
 // uses and grows by whole chunks, so that vertices never move.
 class Subpath {
  public:
   Emission start;
   bool started = false;          // false: the endpoint emits nothing for these numbers
   const Light* light = nullptr;  // of light subpaths
-  float probability = 1.f;       // of choosing it
+  float probability = 1.f;       // of choosing it to emit
+  float time = 0.f;              // of all its rays (Ray::time)
   EndpointTraits traits;         // of the endpoint
   Escape escape;
 
@@ -49,6 +54,9 @@ class Subpath {
   const vec3& position(int k) const {
     return k == 0 ? start.from.position : (*this)[k].surface.hit.position;
   }
+
+  // Of what arrives at vertex k (PathVertex::dispersed of the one before).
+  bool dispersed_before(int k) const { return k > 1 && (*this)[k - 1].dispersed; }
 
   // Of light subpaths: radiance that leaves the start toward `direction` instead. evaluate() takes
   // the surface for given, emit() weighted it by its opacity, which is the same in all directions.
@@ -70,7 +78,7 @@ class Subpath {
     return (*this)[++size_];
   }
   void pop() { --size_; }
-  // Makes room for this many surface vertices, so that push() allocates nothing up to there.
+  // Makes room for this many vertices, so that push() allocates nothing up to there.
   void reserve(int vertices) {
     while (chunks_.size() * chunk < static_cast<size_t>(vertices)) grow();
   }
@@ -87,12 +95,14 @@ class Subpath {
 // densities: weights that ignore it are still a partition of unity.
 class SubpathTracer {
  public:
-  SubpathTracer(const Scene& scene, const PathLimits& limits, Mis mis);
+  // pick: how lights are drawn by the strategies that the weights know of.
+  SubpathTracer(const Scene& scene, const PathLimits& limits, Mis mis,
+                LightPick pick = LightPick::bvh);
   // Fills `path` from the camera's stream; reads the raster pair.
   void from_camera(PrimarySample& u, Subpath& path) const;
   // Fills `path` from the light's stream. Needs at least one light.
   void from_light(PrimarySample& u, Subpath& path) const;
-  // Surface vertices that from_camera and from_light make at most.
+  // Scattering vertices that from_camera and from_light make at most.
   int camera_vertices() const { return camera_vertices_; }
   int light_vertices() const { return limits_.max_bounces; }
 
@@ -100,26 +110,32 @@ class SubpathTracer {
   struct Side {
     Stream stream;
     Transport mode;
-    const Endpoint& endpoint;
-    bool hittable;  // paths from the other side can end on the endpoint
+    const Light* light;  // null: the camera
+    bool hittable;       // paths from the other side can end on the endpoint
     int max_vertices;
     bool camera() const { return mode == Transport::radiance; }
   };
   // The edge being traced, and how the walk left the vertex before it.
   struct Walk {
     Ray ray;
+    const Medium* medium = nullptr;  // where the ray starts
+    Rgb transmittance{1.f};          // of the edge
     Rgb throughput{0.f};
     float begin = 0.f;        // largest component of the start's throughput
     float eta_squared = 1.f;  // product of squared index ratios
     float pdf = 0.f, pdf_reverse = 0.f;
-    float cosine = 0.f;  // geometric, at the vertex that was left
     bool delta = false;
     PathExpression::State state = 0;
   };
   void walk(PrimarySample& u, const Side& side, PathExpression::State state, Subpath& path) const;
+  // The ray that leaves the endpoint, in the medium there.
+  Walk begin(const Side& side, const Subpath& path) const;
   MisPartial first_mis(const Side& side, const Subpath& path, const PathVertex& v,
-                       float cos_vertex) const;
-  MisPartial next_mis(const Walk& w, const Subpath& path, int k, float cos_vertex) const;
+                       const Rgb& transmittance) const;
+  // cos_end, distance2: of Mis::next.
+  MisPartial next_mis(const Walk& w, const PathVertex& from, float cos_end, float distance2) const;
+  // Follows the walk's ray to vertex k; false where the subpath ends.
+  bool advance(PrimarySample& u, const Side& side, int k, Walk& w, Subpath& path) const;
   Escape escape(const Walk& w, const Subpath& path, int k) const;
   bool scatter(PrimarySample& u, const Side& side, const Surface& surface, int k, Walk& w) const;
   PathExpression::State step(const Side& side, PathExpression::State s, bool delta) const;
@@ -127,6 +143,7 @@ class SubpathTracer {
   const Scene& scene_;
   const PathLimits& limits_;
   Mis mis_;
+  LightPick pick_;
   int camera_vertices_;
 };
 

@@ -4,6 +4,12 @@ namespace pssmlt {
 
 bool Surface::shade(const Scene& scene, const vec3& wo_world, MaterialNumbers u) {
   wo = wo_world;
+  if (in_medium_) {
+    frame_ = Frame();
+    wo_local_ = wo;
+    bsdf_ = medium->phase(hit.position, storage_);
+    return !is_black(point_.scattering);
+  }
   frame_ = scene.shading_frame(hit);
   wo_local_ = frame_.to_local(wo);
   bsdf_ = hit.primitive->material->bsdf(hit, u, storage_);
@@ -16,11 +22,16 @@ float Surface::adjoint_cosine(const vec3& wi) const {
   return std::abs(wo_local_.z) * std::abs(glm::dot(wi, hit.ng)) / wo_ng;
 }
 
+float Surface::cosine_factor(const vec3& wi, const vec3& local, Transport mode) const {
+  return mode == Transport::radiance ? std::abs(local.z) : adjoint_cosine(wi);
+}
+
 Rgb Surface::f_cos(const vec3& wi, Transport mode) const {
   const vec3 local = frame_.to_local(wi);
+  if (in_medium_) [[unlikely]]
+    return bsdf_->eval(wo_local_, local, mode) * point_.scattering;
   if (local.z == 0.f) return Rgb(0.f);
-  const Rgb f = bsdf_->eval(wo_local_, local, mode);
-  return f * (mode == Transport::radiance ? std::abs(local.z) : adjoint_cosine(wi));
+  return bsdf_->eval(wo_local_, local, mode) * cosine_factor(wi, local, mode);
 }
 
 float Surface::pdf(const vec3& wi) const { return bsdf_->pdf(wo_local_, frame_.to_local(wi)); }
@@ -28,10 +39,10 @@ float Surface::pdf(const vec3& wi) const { return bsdf_->pdf(wo_local_, frame_.t
 Surface::Scattering Surface::scattering(const vec3& wi, Transport mode) const {
   Scattering s;
   const vec3 local = frame_.to_local(wi);
-  if (local.z == 0.f) return s;
+  if (local.z == 0.f && !in_medium_) return s;
   const Rgb f = bsdf_->eval(wo_local_, local, mode);
   if (is_black(f)) return s;
-  s.f_cos = f * (mode == Transport::radiance ? std::abs(local.z) : adjoint_cosine(wi));
+  s.f_cos = in_medium_ ? f * point_.scattering : f * cosine_factor(wi, local, mode);
   s.pdf = bsdf_->pdf(wo_local_, local);
   s.pdf_reverse = bsdf_->pdf(local, wo_local_);
   return s;
@@ -39,10 +50,12 @@ Surface::Scattering Surface::scattering(const vec3& wi, Transport mode) const {
 
 std::optional<ScatterSample> Surface::sample(float u_lobe, const vec2& u, Transport mode) const {
   const auto s = bsdf_->sample(wo_local_, u_lobe, u, mode);
-  if (!s || s->wi.z == 0.f) return std::nullopt;
+  if (!s || (s->wi.z == 0.f && !in_medium_)) return std::nullopt;
   ScatterSample out{frame_.to_world(s->wi), s->weight, s->pdf, s->pdf_reverse, s->delta,
                     s->transmitted,         s->eta};
-  if (mode == Transport::importance) {
+  if (in_medium_) {
+    out.weight *= point_.scattering;
+  } else if (mode == Transport::importance) {
     out.weight *= adjoint_cosine(out.wi) / std::abs(s->wi.z);
   }
   return out;

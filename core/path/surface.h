@@ -1,7 +1,8 @@
-// A surface point ready for scattering: hit, shading frame and Bsdf, with the conversions between
-// world and local directions that every integrator needs. Reflection and transmission are told
-// apart by the sides of the shading normal alone; the geometric normal offsets rays, converts
-// densities and corrects importance.
+// A point where paths scatter, on a surface or inside a medium: hit, frame and Bsdf, with the
+// conversions between world and local directions that every integrator needs. On surfaces
+// reflection and transmission are told apart by the sides of the shading normal alone; the
+// geometric normal offsets rays, converts densities and corrects importance. Points of media have
+// no normal: where a surface has a cosine they have 1, and their Bsdf is the phase function.
 #pragma once
 
 #include <optional>
@@ -25,14 +26,49 @@ struct ScatterSample {
 // Not copyable: the Bsdf lives inside.
 class Surface {
  public:
-  Hit hit;
-  vec3 wo{0.f};  // unit, toward where the path came from
+  Hit hit;                         // in a medium: position and distance only, no primitive
+  vec3 wo{0.f};                    // unit, toward where the path came from
+  const Medium* medium = nullptr;  // that the path came through; null: vacuum
+  float time = 0.f;                // of the rays that leave (Ray::time)
 
   // Evaluates the hit's material; false where nothing scatters. Call after filling `hit`.
   bool shade(const Scene& scene, const vec3& wo_world, MaterialNumbers u);
-  // f(wo, wi) |cos(ns, wi)| [1/sr]; for importance transport with the adjoint correction of shading
-  // normals |wo.ns||wi.ng| / (|wo.ng||wi.ns|) (Veach 1997, eq. 5.19), so that light and camera
-  // subpaths see the same scattering.
+  // Makes this a point of the medium, or one of a surface that is reached through it.
+  void place(const Medium& in, const vec3& position, float distance) {
+    hit = Hit();
+    hit.position = position;
+    hit.distance = distance;
+    medium = &in;
+    in_medium_ = true;
+    point_ = in.at(position);
+  }
+  void leave_medium(const Medium* through) {
+    medium = through;
+    in_medium_ = false;
+  }
+  bool in_medium() const { return in_medium_; }
+  // Light is scattered by its wavelength here, and the path has one from here on.
+  bool disperses(const Scene& scene) const {
+    return scene.features().dispersion && !in_medium_ &&
+           hit.primitive->material->traits().disperses;
+  }
+  const MediumPoint& point() const { return point_; }  // if in_medium()
+  // The medium that a ray enters that leaves toward `direction`.
+  const Medium* medium_toward(const vec3& direction) const {
+    if (in_medium_ || !hit.primitive->media) return medium;
+    return hit.primitive->media->toward(direction, hit.ng);
+  }
+  // Converts a density per solid angle at the other end of an edge, times its squared length, to
+  // this point's: |cos| to the geometric normal, times the probability that the edge gets here
+  // through media [1]; inside one the density of stopping there instead [1/m].
+  float arrival(const vec3& direction, const Rgb& transmittance) const {
+    return in_medium_ ? mean(point_.extinction * transmittance)
+                      : std::abs(glm::dot(hit.ng, direction)) * mean(transmittance);
+  }
+  // f(wo, wi) |cos(ns, wi)| [1/sr], in media sigma_s times the phase function [1/(m sr)]; for
+  // importance transport with the adjoint correction of shading normals
+  // |wo.ns||wi.ng| / (|wo.ng||wi.ns|) (Veach 1997, eq. 5.19), so that light and camera subpaths see
+  // the same scattering.
   Rgb f_cos(const vec3& wi, Transport mode) const;
   // Density of sample() [1/sr], delta lobes excluded.
   float pdf(const vec3& wi) const;
@@ -47,20 +83,22 @@ class Surface {
   bool connectible() const { return bsdf_->connectible(); }
   // Ray that leaves toward `direction`, offset from the surface.
   Ray spawn(const vec3& direction) const {
-    return {offset_origin(hit.position, hit.error, hit.ng, direction), direction, infinity};
+    return {offset_origin(hit.position, hit.error, hit.ng, direction), direction, infinity, time};
   }
   // Ray to a point of a light or camera, for visibility.
   Ray segment(const Toward& end) const {
     if (!(end.distance < infinity)) return spawn(end.wi);
     return Scene::segment(hit.position, hit.error, hit.ng, end.at.position, end.error,
-                          end.at.normal);
+                          end.at.normal, time);
   }
   Ray segment(const Surface& other) const {
     return Scene::segment(hit.position, hit.error, hit.ng, other.hit.position, other.hit.error,
-                          other.hit.ng);
+                          other.hit.ng, time);
   }
   // This point as a point of the light that the surface carries.
   EndpointPoint light_point() const { return {hit.position, hit.ng, hit.uv, hit.element}; }
+  // The shading normal, turned to the side of the direction given to shade().
+  vec3 facing_normal() const { return wo_local_.z < 0.f ? -frame_.n : frame_.n; }
   const Bsdf* bsdf() const { return bsdf_; }
   const Frame& frame() const { return frame_; }
 
@@ -71,9 +109,13 @@ class Surface {
  private:
   // Factor of importance transport toward wi, |cos(ns, wi)| included.
   float adjoint_cosine(const vec3& wi) const;
+  // What f_cos() of a surface multiplies the Bsdf with.
+  float cosine_factor(const vec3& wi, const vec3& local, Transport mode) const;
   Frame frame_;
   vec3 wo_local_{0.f};
   const Bsdf* bsdf_ = nullptr;
+  bool in_medium_ = false;
+  MediumPoint point_;
   BsdfStorage storage_;
 };
 

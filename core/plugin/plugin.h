@@ -8,7 +8,7 @@
 namespace pssmlt {
 
 // Raised by hand whenever a header that plugins include changes its layout or meaning.
-inline constexpr int abi_version = 2;
+inline constexpr int abi_version = 7;
 
 class Integrator;
 class Sampler;
@@ -16,6 +16,7 @@ class Shape;
 class Light;
 class Camera;
 class Material;
+class Medium;
 class Filter;
 struct RasterFrame;
 
@@ -46,7 +47,7 @@ struct PluginDescriptor {
   const PluginAlias* aliases = nullptr;
   int alias_count = 0;
   // Returns an owning pointer to the kind's base class; throws Error. Textures: the second makes
-  // Texture<Rgb>, the first Texture<float>.
+  // Texture<Rgb>, the first Texture<float>; one of the two is null if the texture has no such form.
   void* (*create)(Parameters&, const PluginArguments&) = nullptr;
   void* (*create_rgb)(Parameters&, const PluginArguments&) = nullptr;
 };
@@ -97,16 +98,21 @@ void* create_texture(Parameters& p, const PluginArguments&) {
       &::pssmlt::PluginKind<::pssmlt::Kind>::create<Class>,                           \
       nullptr};
 
+#define PSSMLT_TEXTURE_DESCRIPTOR(plugin_name, text, create_float, create_colour)    \
+  PSSMLT_EXPORT const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor;           \
+  const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor = {                      \
+      ::pssmlt::abi_version, __VERSION__,  "Texture", plugin_name, text, nullptr, 0, \
+      create_float,          create_colour};
+
 // Registers a texture that exists for float and for Rgb: Class is a template over the value.
-#define PSSMLT_TEXTURE_PLUGIN(plugin_name, Class)                          \
-  PSSMLT_EXPORT const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor; \
-  const ::pssmlt::PluginDescriptor pssmlt_plugin_descriptor = {            \
-      ::pssmlt::abi_version,                                               \
-      __VERSION__,                                                         \
-      "Texture",                                                           \
-      plugin_name,                                                         \
-      Class<float>::summary,                                               \
-      nullptr,                                                             \
-      0,                                                                   \
-      &::pssmlt::create_texture<Class<float>, float>,                      \
-      &::pssmlt::create_texture<Class<::pssmlt::Rgb>, ::pssmlt::Rgb>};
+#define PSSMLT_TEXTURE_PLUGIN(plugin_name, Class)                             \
+  PSSMLT_TEXTURE_DESCRIPTOR(plugin_name, Class<float>::summary,               \
+                            (&::pssmlt::create_texture<Class<float>, float>), \
+                            (&::pssmlt::create_texture<Class<::pssmlt::Rgb>, ::pssmlt::Rgb>))
+// Registers a texture of float alone and one of Rgb alone: Class is no template.
+#define PSSMLT_FLOAT_TEXTURE_PLUGIN(plugin_name, Class)  \
+  PSSMLT_TEXTURE_DESCRIPTOR(plugin_name, Class::summary, \
+                            (&::pssmlt::create_texture<Class, float>), nullptr)
+#define PSSMLT_SPECTRUM_TEXTURE_PLUGIN(plugin_name, Class)        \
+  PSSMLT_TEXTURE_DESCRIPTOR(plugin_name, Class::summary, nullptr, \
+                            (&::pssmlt::create_texture<Class, ::pssmlt::Rgb>))

@@ -168,7 +168,9 @@ std::vector<ParameterDoc> describe(const PluginDescriptor& descriptor) {
   PluginArguments arguments;
   arguments.frame = &frame;
   const std::string kind = descriptor.kind;
-  void* const made = descriptor.create(parameters, arguments);
+  const bool has_create = descriptor.create != nullptr;
+  void* const made =
+      (has_create ? descriptor.create : descriptor.create_rgb)(parameters, arguments);
   if (kind == "Integrator") delete static_cast<Integrator*>(made);
   if (kind == "Sampler") delete static_cast<Sampler*>(made);
   if (kind == "Shape") delete static_cast<Shape*>(made);
@@ -176,7 +178,8 @@ std::vector<ParameterDoc> describe(const PluginDescriptor& descriptor) {
   if (kind == "Camera") delete static_cast<Camera*>(made);
   if (kind == "Material") delete static_cast<Material*>(made);
   if (kind == "Filter") delete static_cast<Filter*>(made);
-  if (kind == "Texture") delete static_cast<Texture<float>*>(made);
+  if (kind == "Texture" && has_create) delete static_cast<Texture<float>*>(made);
+  if (kind == "Texture" && !has_create) delete static_cast<Texture<Rgb>*>(made);
   return docs;
 }
 

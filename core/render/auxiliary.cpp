@@ -17,10 +17,10 @@ struct PixelSums {
   float depth = 0.f, weight = 0.f, hit_weight = 0.f;
 };
 
-void add_ray(const Scene& scene, const Emission& ray, float u_alpha, float weight,
+void add_ray(const Scene& scene, const Emission& ray, float time, float u_alpha, float weight,
              PixelSums& sums) {
   sums.weight += weight;
-  const Ray leaving{ray.from.position, ray.direction, infinity};
+  const Ray leaving{ray.from.position, ray.direction, infinity, time};
   Surface surface;
   if (!scene.intersect(leaving, u_alpha, surface.hit)) return;
   sums.hit_weight += weight;
@@ -45,8 +45,10 @@ PixelSums render_pixel(const Scene& scene, const RasterMap& map, uint64_t seed, 
     const double x = (ray % 4 + to_unit_double(a[0])) / 4.0;
     const double y = (ray / 4 + to_unit_double(a[1])) / 4.0;
     const RasterMap::CameraPoint point = map.camera_point_in(pixel, x, y);
-    const auto emission = scene.camera().emit(vec2(to_unit(a[2]), to_unit(a[3])), point.raster);
-    if (emission) add_ray(scene, *emission, to_unit(b[0]), point.credit.weight, sums);
+    const float time = scene.time(to_unit(b[1]));
+    const vec2 lens(to_unit(a[2]), to_unit(a[3]));
+    const auto emission = scene.camera_emit(lens, point.raster, time);
+    if (emission) add_ray(scene, *emission, time, to_unit(b[0]), point.credit.weight, sums);
   }
   return sums;
 }

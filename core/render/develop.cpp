@@ -50,8 +50,12 @@ LayerScales::LayerScales(const Sampler& s, int rounds)
   if (!std::isfinite(common_variance)) bootstrap_known = false;
 }
 
-Developer::Developer(const Film& film, std::vector<LayerScales> layers, double picture_scale)
-    : film_(film), layers_(std::move(layers)), picture_scale_(picture_scale) {
+Developer::Developer(const Film& film, std::vector<LayerScales> layers, double picture_scale,
+                     const glm::dmat3& balance)
+    : film_(film),
+      layers_(std::move(layers)),
+      picture_scale_(picture_scale),
+      to_picture_(picture_scale * balance) {
   for (const LayerScales& l : layers_) {
     auto& subsets = subset_of_.emplace_back();
     if (l.sampler->subsets() == 1) continue;
@@ -90,7 +94,7 @@ dvec3 Developer::pixel(int p) const {
       sum += both * layers_[l].total[static_cast<size_t>(plane)][subset];
     }
   }
-  return sum * picture_scale_;
+  return to_picture_ * sum;
 }
 
 dvec3 Developer::half_pixel(int p, int layer, int which) const {
@@ -100,7 +104,7 @@ dvec3 Developer::half_pixel(int p, int layer, int which) const {
     sum += film_.value(layer, plane, which, p) *
            l.half[static_cast<size_t>(plane)][static_cast<size_t>(which)];
   }
-  return sum * picture_scale_;
+  return to_picture_ * sum;
 }
 
 dvec3 Developer::variance_pixel(int p) const {
@@ -157,7 +161,7 @@ std::vector<SplitImage> Developer::splits(SplitKind kind) const {
                  layers_[l].total[static_cast<size_t>(plane)][subset];
         }
       }
-      return sum * picture_scale_;
+      return to_picture_ * sum;
     };
     const std::string name =
         kind == SplitKind::length

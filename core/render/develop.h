@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <glm/mat3x3.hpp>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,9 @@ struct GroupBlocks {
 
 class Developer {
  public:
-  // picture_scale: factor from what the film holds to the picture.
-  Developer(const Film& film, std::vector<LayerScales> layers, double picture_scale);
+  // picture_scale: factor from what the film holds to the picture; balance: of its colours.
+  Developer(const Film& film, std::vector<LayerScales> layers, double picture_scale,
+            const glm::dmat3& balance = glm::dmat3(1.0));
   Image picture() const;
   // The same bits, by the pool's threads.
   Image picture(WorkerPool& pool) const;
@@ -70,6 +72,7 @@ class Developer {
   std::vector<LayerScales> layers_;
   std::vector<std::vector<uint8_t>> subset_of_;  // [layer][pixel]; empty: one subset
   double picture_scale_;
+  glm::dmat3 to_picture_;  // of a colour that the film holds: the balance times the scale
 };
 
 }  // namespace pssmlt

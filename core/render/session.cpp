@@ -319,7 +319,8 @@ void Session::report_progress(double unfinished_samples) {
 Developer Session::developer() const {
   std::vector<LayerScales> scales;
   for (const LayerState& l : layers_) scales.emplace_back(*l.layer->sampler, l.rounds);
-  return Developer(film_, std::move(scales), scene_.radiance_scale * scene_.exposure);
+  return Developer(film_, std::move(scales), scene_.radiance_scale * scene_.exposure,
+                   scene_.balance);
 }
 
 bool Session::step() {

@@ -33,6 +33,8 @@ class Numbers {
   explicit Numbers(const NumberBlock& block) : block_(block) {}
   // The next number in [0, 1). At most four a block.
   float next() { return to_unit(block_[at_++ & 3]); }
+  // The same with all its 32 bits, for choices among very many.
+  double next_double() { return to_unit_double(block_[at_++ & 3]); }
   vec2 next2() {
     const float x = next();
     const float y = next();

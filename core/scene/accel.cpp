@@ -64,24 +64,29 @@ RTCRay to_embree(const Ray& ray) {
   RTCRay r;
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  r.tnear = 0.f;
+  // Not 0: a ray that starts in a plane through the origin, where positions and thus their errors
+  // are exactly 0, has not been moved out of it and meets it at once.
+  r.tnear = 0x1p-80f;
   r.tfar = ray.t_max;
-  r.time = 0.f;
+  r.time = ray.time;
   r.mask = ~0u;
   r.id = 0;
   r.flags = 0;
   return r;
 }
 
+// Relative rounding of positions; what moves has Embree's interpolation in float as well.
+constexpr double moving_error = 0x1p-19, still_error = 0x1p-22;
+
 // Transforms a hit of an object to render space; error bounds grow by the matrix's rounding.
-void transform_hit(const Transform& to_render, Hit& hit) {
+void transform_hit(const Transform& to_render, double rounding, Hit& hit) {
   const dmat4& m = to_render.matrix();
   const dvec3 p = to_render.point(dvec3(hit.position));
   vec3 error(0.f);
   for (int i = 0; i < 3; ++i) {
     double e = 0.0;
     for (int k = 0; k < 3; ++k) e += std::abs(m[k][i]) * static_cast<double>(hit.error[k]);
-    error[i] = static_cast<float>(e + std::abs(p[i]) * 0x1p-22);
+    error[i] = static_cast<float>(e + std::abs(p[i]) * rounding);
   }
   hit.position = vec3(p);
   hit.error = error;
@@ -92,6 +97,32 @@ void transform_hit(const Transform& to_render, Hit& hit) {
   hit.dpdv = to_render.vector(hit.dpdv);
   hit.dndu = to_render.normal(hit.dndu);
   hit.dndv = to_render.normal(hit.dndv);
+}
+
+}  // namespace
+
+namespace {
+
+void set_transform(RTCGeometry geometry, const Accel::Instance& instance) {
+  if (!instance.motion) {
+    const glm::mat4 m(instance.to_render.matrix());
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
+    return;
+  }
+  rtcSetGeometryTimeStepCount(geometry, 2);
+  for (unsigned step = 0; step < 2; ++step) {
+    const Pose& pose = instance.motion->poses()[step];
+    const glm::quat q(pose.rotation);
+    const glm::mat3 s(pose.stretch);
+    const glm::vec3 t(pose.translation);
+    RTCQuaternionDecomposition d;
+    rtcInitQuaternionDecomposition(&d);
+    rtcQuaternionDecompositionSetQuaternion(&d, q.w, q.x, q.y, q.z);
+    rtcQuaternionDecompositionSetScale(&d, s[0][0], s[1][1], s[2][2]);
+    rtcQuaternionDecompositionSetSkew(&d, s[1][0], s[2][0], s[2][1]);
+    rtcQuaternionDecompositionSetTranslation(&d, t.x, t.y, t.z);
+    rtcSetGeometryTransformQuaternion(geometry, step, &d);
+  }
 }
 
 }  // namespace
@@ -197,11 +228,12 @@ double Accel::reach_of(const Transform& to_render) {
 
 void Accel::build(const std::vector<const Primitive*>& primitives,
                   const std::vector<std::vector<const Primitive*>>& objects,
-                  const std::vector<Instance>& instances) {
+                  std::vector<Instance> all_instances) {
   Impl& d = *impl_;
   d.primitives = primitives;
   d.objects = objects;
-  d.instances = instances;
+  d.instances = std::move(all_instances);
+  const std::vector<Instance>& instances = d.instances;
   for (const auto& object : objects) {
     const RTCScene scene = d.make_scene();
     for (uint32_t i = 0; i < object.size(); ++i) d.attach(scene, *object[i], i);
@@ -211,7 +243,7 @@ void Accel::build(const std::vector<const Primitive*>& primitives,
   d.top = d.make_scene();
   double reach = embree_reach;
   for (const Instance& instance : instances) {
-    reach = std::min(reach, reach_of(instance.to_render));
+    reach = std::min(reach, std::min(reach_of(instance.at(0.f)), reach_of(instance.at(1.f))));
   }
   reach_ = static_cast<float>(std::max(reach, 0.0));
   for (uint32_t i = 0; i < primitives.size(); ++i) d.attach(d.top, *primitives[i], i);
@@ -219,8 +251,7 @@ void Accel::build(const std::vector<const Primitive*>& primitives,
   for (uint32_t i = 0; i < instances.size(); ++i) {
     const RTCGeometry geometry = rtcNewGeometry(d.device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, d.object_scenes[instances[i].object]);
-    const glm::mat4 m(instances[i].to_render.matrix());
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
+    set_transform(geometry, instances[i]);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(d.top, geometry, d.first_instance_id + i);
     rtcReleaseGeometry(geometry);
@@ -228,6 +259,8 @@ void Accel::build(const std::vector<const Primitive*>& primitives,
   rtcCommitScene(d.top);
   d.check();
 }
+
+const std::vector<Accel::Instance>& Accel::instances() const { return impl_->instances; }
 
 bool Accel::intersect(const Ray& ray, RawHit& hit) const {
   if (!within(ray.origin, reach_) || !within(ray.direction, 2.f)) return false;
@@ -240,6 +273,7 @@ bool Accel::intersect(const Ray& ray, RawHit& hit) const {
   rtcIntersect1(impl_->top, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.t = query.ray.tfar;
+  hit.time = ray.time;
   hit.where = {query.hit.u, query.hit.v};
   hit.element = query.hit.primID;
   if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) {
@@ -268,7 +302,8 @@ void Accel::fill(const RawHit& raw, Hit& hit) const {
   hit.element = raw.element;
   raw.primitive->shape->fill(raw.where, hit);
   if (raw.instance >= 0) {
-    transform_hit(impl_->instances[static_cast<size_t>(raw.instance)].to_render, hit);
+    const Instance& instance = impl_->instances[static_cast<size_t>(raw.instance)];
+    transform_hit(instance.at(raw.time), instance.motion ? moving_error : still_error, hit);
   }
 }
 

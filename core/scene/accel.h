@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/motion.h"
 #include "core/base/ray.h"
-#include "core/base/transform.h"
 #include "core/scene/scene.h"
 
 namespace pssmlt {
@@ -17,6 +17,7 @@ struct RawHit {
   vec2 where{0.f};  // barycentric or the shape's own coordinates
   uint32_t element = 0;
   int instance = -1;  // into the instances, -1: none
+  float time = 0.f;   // the ray's
   const Primitive* primitive = nullptr;
 };
 
@@ -25,7 +26,9 @@ class Accel {
   // A set of primitives placed once (identity) or by every one of its instances.
   struct Instance {
     uint32_t object = 0;
-    Transform to_render;
+    Transform to_render;                            // if it does not move, or when it starts
+    std::shared_ptr<const MovingTransform> motion;  // null: it does not move
+    Transform at(float time) const { return motion ? motion->at(time) : to_render; }
   };
   Accel();
   ~Accel();
@@ -36,7 +39,8 @@ class Accel {
   // outlive the Accel. Throws Failure if memory runs out.
   void build(const std::vector<const Primitive*>& primitives,
              const std::vector<std::vector<const Primitive*>>& objects,
-             const std::vector<Instance>& instances);
+             std::vector<Instance> instances);
+  const std::vector<Instance>& instances() const;
 
   // A ray that is not finite, or starts beyond reach(), meets nothing and sees nothing.
   bool intersect(const Ray& ray, RawHit& hit) const;

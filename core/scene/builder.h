@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,13 +53,17 @@ struct BuiltScene {
   std::shared_ptr<const Scene> scene;
   std::vector<Layer> layers;
   std::shared_ptr<const RasterMap> raster_map;
-  std::string output;              // the film's file name, "" if it gives none
+  std::string output;  // the film's file name, "" if it gives none
+  // Layers that the film wants beside the picture where the format holds any (film "gbuffer").
+  std::vector<std::string> film_layers;
   float max_component = infinity;  // per sample [W/(m^2 sr)], infinity unless asked for
   // Power of two near the scene's mean radiance: the film accumulates value / radiance_scale and
   // multiplies it back on output, so that its fixed-point range fits every scene.
   double radiance_scale = 1.0;
-  // Seconds that the shutter is open * iso / 100: the written picture is radiance times this.
+  // The written picture is balance * radiance * exposure: the time of the exposure * iso / 100, and
+  // the white balance of the film's sensor in linear Rec.709.
   double exposure = 1.0;
+  glm::dmat3 balance{1.0};
   std::optional<uint64_t> seed;  // Option "seed" of the scene
   uint64_t scene_hash = 0;       // of the scene's text
   uint64_t settings_hash = 0;    // of all else that decides the picture: names, parameters, size

@@ -1,6 +1,7 @@
 #include "core/scene/builder_film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pssmlt {
@@ -60,31 +61,11 @@ void read_size(Parameters& film, const BuildOptions& options, RasterFrame& frame
   frame.crop_max = size;
 }
 
-// How long the camera's shutter is open [s]; the camera checks the parameters' types.
-float shutter_time(const ParameterSet& camera, const Location& where) {
-  float open = 0.f, close = 1.f;
-  for (const Parameter& p : camera) {
-    if (p.floats.size() != 1) continue;
-    if (p.name == "shutteropen") open = p.floats[0];
-    if (p.name == "shutterclose") close = p.floats[0];
-  }
-  if (!(close > open)) throw Error(where, "the camera's shutter closes before it opens");
-  return close - open;
-}
-
-void read_sensor(Parameters& film, float shutter_seconds, FilmDirective& settings,
-                 std::vector<std::string>& log) {
-  const std::string sensor = film.text("sensor", "cie1931", "response of the sensor");
-  if (sensor != "cie1931") {
-    film.fail("sensor", "sensor \"" + sensor + "\" is not supported yet (only \"cie1931\")");
-  }
-  const float iso = film.number("iso", 100.f, "", "film speed; the picture scales with iso / 100");
-  settings.exposure = static_cast<double>(iso) * static_cast<double>(shutter_seconds) / 100.0;
-  if (film.number("whitebalance", 0.f, "K", "white balance, 0: none") != 0.f) {
-    film.fail("whitebalance", "whitebalance is not supported yet");
-  }
+void read_output(Parameters& film, FilmDirective& settings, std::vector<std::string>& log) {
   film.flag("savefp16", true, "pbrt writes half floats; this program always writes floats");
-  film.number("diagonal", 35.f, "mm", "of the film, for realistic cameras");
+  settings.frame.diagonal =
+      film.number("diagonal", 35.f, "mm", "of the film, for cameras that have lenses");
+  if (!(settings.frame.diagonal > 0.f)) film.fail("diagonal", "\"diagonal\" must be positive");
   settings.max_component = film.number("maxcomponentvalue", infinity, "W/(m^2 sr)",
                                        "clamp of a sample's largest component, if asked for");
   if (std::isfinite(settings.max_component)) {
@@ -92,16 +73,27 @@ void read_sensor(Parameters& film, float shutter_seconds, FilmDirective& setting
   }
 }
 
+// What denoisers want, of pbrt-v4's "gbuffer".
+void read_layers(Parameters& film, FilmDirective& settings, std::vector<std::string>& log) {
+  constexpr std::array<std::string_view, 2> spaces = {"camera", "world"};
+  const std::string space = film.choice("coordinatesystem", spaces[0], spaces, "of the normals");
+  settings.layers = {"albedo", "normal", "depth", "variance"};
+  if (space == spaces[0]) {
+    log.push_back("film: normals are written in world space, not in the camera's");
+  }
+}
+
 }  // namespace
 
 FilmDirective read_film(const SceneDescription& scene, const BuildOptions& options,
                         std::vector<std::string>& log) {
-  if (scene.film.given() && scene.film.type != "rgb") {
-    throw Error(scene.film.where,
-                "film \"" + scene.film.type + "\" is unknown or not supported yet");
+  const std::string type = scene.film.given() ? scene.film.type : "rgb";
+  if (type != "rgb" && type != "gbuffer") {
+    throw Error(scene.film.where, "film \"" + type + "\" is unknown or not supported yet");
   }
-  Parameters film(scene.film.parameters, scene.film.where, "film \"rgb\"", nullptr);
+  Parameters film(scene.film.parameters, scene.film.where, "film \"" + type + "\"", nullptr);
   FilmDirective settings;
+  if (type == "gbuffer") read_layers(film, settings, log);
   RasterFrame& frame = settings.frame;
   read_size(film, options, frame);
   const std::vector<float> window =
@@ -116,7 +108,9 @@ FilmDirective read_film(const SceneDescription& scene, const BuildOptions& optio
   }
   check_frame(frame, film);
   settings.output = film.text("filename", "pbrt.exr", "where the picture is written");
-  read_sensor(film, shutter_time(scene.camera.parameters, scene.camera.where), settings, log);
+  const auto [open, close] = shutter_times(scene.camera);
+  settings.sensor = read_sensor(film, close - open, log);
+  read_output(film, settings, log);
   if (!options.honour_clamp) settings.max_component = infinity;
   film.check_all_read();
   if (scene.color_space != "srgb") {
@@ -124,6 +118,28 @@ FilmDirective read_film(const SceneDescription& scene, const BuildOptions& optio
                   "\"");
   }
   return settings;
+}
+
+// The camera checks the parameters' types.
+std::array<float, 2> shutter_times(const Directive& camera) {
+  float open = 0.f, close = 1.f;
+  for (const Parameter& p : camera.parameters) {
+    if (p.floats.size() != 1) continue;
+    if (p.name == "shutteropen") open = p.floats[0];
+    if (p.name == "shutterclose") close = p.floats[0];
+  }
+  if (!(close > open)) throw Error(camera.where, "the camera's shutter closes before it opens");
+  return {open, close};
+}
+
+std::shared_ptr<const RasterMap> make_raster_map(const RasterFrame& frame,
+                                                 std::shared_ptr<const Filter> filter,
+                                                 const Parameters& parameters) {
+  try {
+    return std::make_shared<const RasterMap>(frame, std::move(filter));
+  } catch (const Error& e) {
+    parameters.fail(e.what());
+  }
 }
 
 }  // namespace pssmlt

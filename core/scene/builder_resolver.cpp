@@ -1,11 +1,19 @@
 #include "core/scene/builder_resolver.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/plugin/registry.h"
 #include "core/scene/suggest.h"
 
 namespace pssmlt {
+namespace {
+
+const char* form_name(TextureValue value) {
+  return value == TextureValue::Float ? "float" : "spectrum";
+}
+
+}  // namespace
 
 std::string owner_name(const std::string& kind, const std::string& name) {
   return kind + " \"" + name + "\"";
@@ -19,7 +27,7 @@ const TextureDescription& BuildResolver::find_texture(const std::string& name, T
     if (t.name == name) return t;
     known.push_back(t.name);
   }
-  const char* const kind = value == TextureValue::Float ? "float" : "spectrum";
+  const char* const kind = form_name(value);
   for (const TextureDescription& t : scene_.textures) {
     if (t.name == name) {
       throw Error(where, "texture \"" + name + "\" is not a " + kind + " texture");
@@ -42,6 +50,12 @@ std::shared_ptr<const Texture<T>> BuildResolver::make_texture(
   parameters.set_transform(to_render_ * description.transform.start);
   const auto create =
       std::is_same_v<T, float> ? found.descriptor->create : found.descriptor->create_rgb;
+  if (!create) {
+    throw Error(description.where, owner_name("texture", description.type) + " is a " +
+                                       form_name(std::is_same_v<T, float> ? TextureValue::Spectrum
+                                                                          : TextureValue::Float) +
+                                       " texture only");
+  }
   std::shared_ptr<const Texture<T>> made(static_cast<Texture<T>*>(create(parameters, {})));
   parameters.check_all_read();
   in_progress_.erase(&description);
@@ -97,6 +111,20 @@ std::shared_ptr<const Material> BuildResolver::material(uint32_t index) {
   return materials_[index] = made;
 }
 
+std::shared_ptr<const Medium> BuildResolver::medium(const std::string& name,
+                                                    const Location& where) {
+  const auto found = std::ranges::find(scene_.media, name, &MediumDescription::name);
+  // The parser has seen to it that every name used is declared.
+  if (found == scene_.media.end()) throw Error(where, "medium \"" + name + "\" is not defined");
+  auto& slot = media_[&*found];
+  if (slot) return slot;
+  if (found->transform.animated()) throw Error(found->where, "media cannot move");
+  const FoundPlugin plugin = Registry::instance().find("medium", found->type, found->where);
+  Parameters parameters(found->parameters, found->where, owner_name("medium", found->type), this);
+  parameters.set_transform(to_render_ * found->transform.start);
+  return slot = make_plugin<Medium>(plugin, parameters);
+}
+
 std::vector<std::string> BuildResolver::unused() const {
   std::vector<std::string> names;
   for (uint32_t i = 0; i < scene_.materials.size(); ++i) {
@@ -107,6 +135,9 @@ std::vector<std::string> BuildResolver::unused() const {
   for (const TextureDescription& t : scene_.textures) {
     if (float_textures_.contains(&t) || rgb_textures_.contains(&t)) continue;
     names.push_back(owner_name("texture", t.name));
+  }
+  for (const MediumDescription& m : scene_.media) {
+    if (!media_.contains(&m)) names.push_back(owner_name("medium", m.name));
   }
   return names;
 }

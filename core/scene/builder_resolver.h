@@ -24,6 +24,8 @@ class BuildResolver final : public SceneResolver {
                                                   const Location& where) override;
   std::string resolve_path(const std::string& name) const override;
   std::shared_ptr<const Material> material(const std::string& name, const Location& where) override;
+  // Medium by name; throws Error at `where`.
+  std::shared_ptr<const Medium> medium(const std::string& name, const Location& where);
   // By index into the description's materials.
   std::shared_ptr<const Material> material(uint32_t index);
   // Declared things that nothing used so far.
@@ -42,6 +44,7 @@ class BuildResolver final : public SceneResolver {
   std::map<const TextureDescription*, std::shared_ptr<const Texture<float>>> float_textures_;
   std::map<const TextureDescription*, std::shared_ptr<const Texture<Rgb>>> rgb_textures_;
   std::map<uint32_t, std::shared_ptr<const Material>> materials_;
+  std::map<const MediumDescription*, std::shared_ptr<const Medium>> media_;
   std::set<const void*> in_progress_;  // to report materials and textures that contain themselves
 };
 

@@ -16,6 +16,14 @@ void mix(std::array<uint64_t, 2>& state, uint64_t word) {
 
 }  // namespace
 
+TransformStep::~TransformStep() {
+  std::shared_ptr<const TransformStep> next = std::move(before);
+  while (next && next.use_count() == 1) {
+    std::shared_ptr<const TransformStep> after = std::move(next->before);
+    next = std::move(after);
+  }
+}
+
 void hash_text(std::array<uint64_t, 2>& state, std::string_view text) {
   mix(state, text.size());
   size_t i = 0;

@@ -9,18 +9,33 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/transform.h"
+#include "core/image/embedded_file.h"
 #include "core/scene/parameters.h"
 
 namespace pssmlt {
+
+// One transformation directive as written, after those `before` it.
+struct TransformStep {
+  std::string text;  // "Translate 1 2 3": what gives the same matrices again
+  std::array<bool, 2> active{true, true};
+  mutable std::shared_ptr<const TransformStep> before;
+  TransformStep(std::string t, std::array<bool, 2> a, std::shared_ptr<const TransformStep> b)
+      : text(std::move(t)), active(a), before(std::move(b)) {}
+  TransformStep(const TransformStep&) = delete;
+  TransformStep& operator=(const TransformStep&) = delete;
+  ~TransformStep();  // of long chains without recursion
+};
 
 // Transformations at the two ends of the shutter interval (pbrt's ActiveTransform).
 struct TransformPair {
   Transform start;
   std::shared_ptr<const Transform> end;  // null: the same as start, that is, not animated
+  std::shared_ptr<const TransformStep> steps = nullptr;  // the last; null: none or not asked for
   bool animated() const { return end != nullptr; }
 };
 
@@ -74,17 +89,17 @@ struct ShapeDescription : Directive {
   std::string inside_medium, outside_medium;  // "" is vacuum; declared in SceneDescription::media
 };
 
-struct ObjectDescription {  // ObjectBegin ... ObjectEnd; the shapes' transforms are as if in the
-                            // world
+struct InstanceDescription {
+  uint32_t object = 0;      // into SceneDescription::objects
+  TransformPair transform;  // applied after what the object holds has been placed in it
+  Location where;
+};
+
+struct ObjectDescription {  // ObjectBegin ... ObjectEnd; transforms inside are as if in the world
   std::string name;
   Location where;
   std::vector<ShapeDescription> shapes;
-};
-
-struct InstanceDescription {
-  uint32_t object = 0;      // into SceneDescription::objects
-  TransformPair transform;  // applied after the shape's own transform
-  Location where;
+  std::vector<InstanceDescription> instances;  // of other objects; none contains itself
 };
 
 struct SceneDescription {
@@ -108,6 +123,8 @@ struct SceneDescription {
   std::vector<ShapeDescription> shapes;
   std::vector<ObjectDescription> objects;
   std::vector<InstanceDescription> instances;
+  // Images inside the files that were read; parameters name them as files.
+  std::vector<std::shared_ptr<const EmbeddedFile>> embedded;
 };
 
 // Mixes text into a 128-bit state. Not cryptographic: it tells a checkpoint that the scene changed.

@@ -9,15 +9,19 @@
 namespace pssmlt {
 
 struct SceneFeatures {
-  bool alpha = false;  // any cut-outs
+  bool alpha = false;   // any cut-outs
+  bool media = false;   // any participating media
+  bool motion = false;  // anything moves while the shutter is open
   bool instances = false;
   bool material_numbers = false;  // any material that draws numbers of its own (mix)
+  bool dispersion = false;        // any material that scatters by wavelength
   bool connectible = false;       // any material with non-delta lobes (D)
   bool specular = false;          // any material with delta lobes (S)
   bool transmissive = false;
   bool area_lights = false;      // A in path expressions
   bool infinite_lights = false;  // I: environment, can be hit by leaving rays
   bool delta_lights = false;     // P: point, spot, distant
+  bool emitting_media = false;   // V
   bool delta_lens = false;       // pinhole
   bool textures = false;
   int lights = 0;

@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/color/color_space.h"
 #include "core/scene/suggest.h"
 
 namespace pssmlt {
@@ -62,7 +63,8 @@ bool looks_numeric(std::string_view text) {
 
 class ListReader {
  public:
-  explicit ListReader(Tokenizer& tokens) : tokens_(tokens) {}
+  explicit ListReader(Tokenizer& tokens, std::vector<OldSyntax>* old = nullptr)
+      : tokens_(tokens), old_(old) {}
 
   Parameter declaration();
   void values(Parameter& p, const Token& declared);
@@ -77,6 +79,7 @@ class ListReader {
   [[noreturn]] void fail_value(const Parameter& p, const Token& token, const char* expected);
 
   Tokenizer& tokens_;
+  std::vector<OldSyntax>* old_;  // null: old types are errors
 };
 
 std::string described(const Parameter& p) {
@@ -87,15 +90,27 @@ void ListReader::fail_value(const Parameter& p, const Token& token, const char* 
   tokens_.fail(token, described(p) + ": expected " + expected + ", found " + shown(token));
 }
 
-ParameterType required_type(Tokenizer& tokens, const Token& token, std::string_view name) {
+// Colours in older formats; of "xyz" the components are still to be converted.
+bool is_old_type(std::string_view name) { return name == "color" || name == "xyz"; }
+
+ParameterType required_type(Tokenizer& tokens, const Token& token, std::string_view name,
+                            bool old_types) {
   if (const auto type = parameter_type(name)) return *type;
-  if (name == "color" || name == "xyz")
+  if (is_old_type(name) && old_types) return ParameterType::Rgb;
+  if (is_old_type(name))
     tokens.fail(token, "parameter type \"" + std::string(name) +
                            "\" is pbrt-v3 syntax; use \"rgb\" or \"spectrum\"");
   std::vector<std::string> known;
   for (const TypeName& t : type_names) known.emplace_back(t.name);
   tokens.fail(token, "unknown parameter type \"" + std::string(name.substr(0, 40)) + "\"" +
                          suggestion(name, known));
+}
+
+void xyz_to_rgb(std::vector<float>& values) {
+  for (size_t i = 0; i + 2 < values.size(); i += 3) {
+    const dvec3 rgb = rec709_from_xyz() * dvec3(values[i], values[i + 1], values[i + 2]);
+    for (int c = 0; c < 3; ++c) values[i + static_cast<size_t>(c)] = static_cast<float>(rgb[c]);
+  }
 }
 
 Parameter ListReader::declaration() {
@@ -110,11 +125,13 @@ Parameter ListReader::declaration() {
   if (text.find_first_not_of(spaces, name_end) != std::string::npos)
     tokens_.fail(token, "a parameter's name has no spaces: " + shown(token));
   Parameter p;
-  p.type = required_type(tokens_, token,
-                         std::string_view(text).substr(type_begin, type_end - type_begin));
+  const std::string_view type = std::string_view(text).substr(type_begin, type_end - type_begin);
+  p.type = required_type(tokens_, token, type, old_ != nullptr);
   p.name = text.substr(name_begin, name_end - name_begin);
   p.where = tokens_.where(token);
   values(p, token);
+  if (is_old_type(type)) old_->push_back({"type \"" + std::string(type) + "\"", p.where});
+  if (type == "xyz") xyz_to_rgb(p.floats);
   return p;
 }
 
@@ -260,10 +277,11 @@ std::optional<ParameterType> parameter_type(std::string_view name) {
 }
 
 ParameterSet read_parameters(Tokenizer& tokens,
-                             const std::shared_ptr<const std::string>& color_space) {
+                             const std::shared_ptr<const std::string>& color_space,
+                             std::vector<OldSyntax>* old) {
   ParameterSet list;
   NamesSeen seen;
-  ListReader reader(tokens);
+  ListReader reader(tokens, old);
   while (tokens.peek().kind == TokenKind::String) {
     Parameter p = reader.declaration();
     if (const Parameter* const first = seen.earlier(list, p.name))

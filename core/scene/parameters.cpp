@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/image/embedded_file.h"
 #include "core/scene/suggest.h"
 
 namespace pssmlt {
@@ -198,6 +199,7 @@ std::string Parameters::file(std::string_view name, std::string_view doc) {
   const Parameter* const p = find_one(name, {String});
   if (p == nullptr) return "";
   const std::string& given = p->strings[0];
+  if (find_embedded_file(given)) return given;
   const std::string path = resolver_ != nullptr ? resolver_->resolve_path(given) : given;
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))

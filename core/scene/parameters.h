@@ -141,6 +141,9 @@ class Parameters {
   // cameras, and textures' mappings).
   const Transform& transform() const { return transform_; }
   void set_transform(const Transform& t) { transform_ = t; }
+  // World space to render space, for what is given in world space wherever it stands.
+  const Transform& world() const { return world_; }
+  void set_world(const Transform& t) { world_ = t; }
   // ReverseOrientation was in force (shapes).
   bool reverse_orientation() const { return reverse_orientation_; }
   void set_reverse_orientation(bool r) { reverse_orientation_ = r; }
@@ -164,7 +167,7 @@ class Parameters {
   Location where_;
   std::string owner_;
   SceneResolver* resolver_ = nullptr;
-  Transform transform_;
+  Transform transform_, world_;
   bool reverse_orientation_ = false;
   std::vector<ParameterDoc>* docs_ = nullptr;
   std::vector<std::string> asked_;

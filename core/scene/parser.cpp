@@ -1,110 +1,23 @@
 #include "core/scene/parser.h"
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
-#include "core/scene/parameter_list.h"
-#include "core/scene/scene_state.h"
+#include "core/scene/import.h"
+#include "core/scene/parser_directives.h"
 #include "core/scene/suggest.h"
-#include "core/scene/tokenizer.h"
 
 namespace pssmlt {
-namespace {
 
 // Include inside Include, deeper than any scene that is not recursive.
-constexpr size_t deepest_include = 256;
+static constexpr size_t deepest_include = 256;
 
-enum class Where : uint8_t { Anywhere, Options, World };
-
-class Parser {
- public:
-  Parser(SceneDescription& scene, std::vector<std::string>* log)
-      : scene_(scene),
-        state_(
-            scene,
-            [this](const Location& where, const std::string& message) { fail(where, message); },
-            log) {}
-
-  // files: whether Include may open any. canonical: the text's own path, "" if it has none.
-  void run(std::string_view text, std::shared_ptr<const std::string> name, bool files,
-           std::string canonical);
-
- private:
-  struct Rule {
-    std::string_view name;
-    Where where;
-    void (Parser::*special)(const Location&);
-    void (SceneState::*plugin)(std::string, ParameterSet, const Location&);
-  };
-  static const std::array<Rule, 43>& rules();
-
-  struct Source {
-    Tokenizer* tokens;
-    std::string canonical;
-  };
-
-  [[noreturn]] void fail(const Location& where, const std::string& message) const;
-  const Rule& find_rule(const Token& token) const;
-  void check_block(const Rule& rule, const Location& where) const;
-  void directives(Tokenizer& tokens);
-  Tokenizer& tokens() { return *open_.back().tokens; }
-  ParameterSet parameters() { return read_parameters(tokens(), state_.color_space()); }
-  std::string string_after(std::string_view directive);
-  template <size_t N>
-  std::array<double, N> numbers(std::string_view directive);
-
-  void active_transform(const Location& where);
-  void attribute_begin(const Location& w) { state_.push(SceneState::Nested::Attribute, w); }
-  void attribute_end(const Location& w) { state_.pop(SceneState::Nested::Attribute, w); }
-  void transform_begin(const Location& w) { state_.push(SceneState::Nested::Transform, w); }
-  void transform_end(const Location& w) { state_.pop(SceneState::Nested::Transform, w); }
-  void color_space(const Location& w) { state_.set_color_space(string_after("ColorSpace"), w); }
-  void coordinate_system(const Location& w) {
-    state_.define_coordinates(string_after("CoordinateSystem"), w);
-  }
-  void coord_sys_transform(const Location& w) {
-    state_.use_coordinates(string_after("CoordSysTransform"), w);
-  }
-  void concat_transform(const Location& where);
-  void transform(const Location& where);
-  void identity(const Location& where) { state_.replace(dmat4(1.0), where); }
-  void translate(const Location& where);
-  void scale(const Location& where);
-  void rotate(const Location& where);
-  void look_at(const Location& where);
-  void transform_times(const Location& where);
-  void include(const Location& where);
-  void import(const Location& where);
-  void read_file(std::string_view directive, const Location& where);
-  void layer_end(const Location& w) { state_.layer_end(w); }
-  void medium_interface(const Location& where);
-  void named_material(const Location& w) { state_.use_material(string_after("NamedMaterial"), w); }
-  void object_begin(const Location& w) { state_.object_begin(string_after("ObjectBegin"), w); }
-  void object_end(const Location& w) { state_.object_end(w); }
-  void object_instance(const Location& w) {
-    state_.object_instance(string_after("ObjectInstance"), w);
-  }
-  void option(const Location& where);
-  void reverse_orientation(const Location&) { state_.reverse_orientation(); }
-  void texture(const Location& where);
-  void world_begin(const Location& w) { state_.world_begin(w); }
-  void world_end(const Location& where) {
-    fail(where, "WorldEnd is pbrt-v3 syntax: in pbrt-v4 the world ends with the file; remove it");
-  }
-
-  SceneDescription& scene_;
-  SceneState state_;
-  std::vector<Source> open_;  // the files being read, the innermost last
-  bool files_ = false;
-};
-
-const std::array<Parser::Rule, 43>& Parser::rules() {
+const std::array<Parser::Rule, 46>& Parser::rules() {
   using S = SceneState;
   using P = Parser;
-  static const std::array<Rule, 43> table = {{
+  static const std::array<Rule, 46> table = {{
       {"Accelerator", Where::Options, nullptr, &S::accelerator},
       {"ActiveTransform", Where::Anywhere, &P::active_transform, nullptr},
       {"AreaLightSource", Where::World, nullptr, &S::area_light},
@@ -135,17 +48,20 @@ const std::array<Parser::Rule, 43>& Parser::rules() {
       {"ObjectInstance", Where::World, &P::object_instance, nullptr},
       {"Option", Where::Anywhere, &P::option, nullptr},
       {"PixelFilter", Where::Options, nullptr, &S::filter},
+      {"Renderer", Where::Options, &P::old_ignored, nullptr},
       {"ReverseOrientation", Where::World, &P::reverse_orientation, nullptr},
       {"Rotate", Where::Anywhere, &P::rotate, nullptr},
       {"Sampler", Where::Options, nullptr, &S::sampler},
       {"Scale", Where::Anywhere, &P::scale, nullptr},
       {"Shape", Where::World, nullptr, &S::shape},
+      {"SurfaceIntegrator", Where::Options, &P::surface_integrator, nullptr},
       {"Texture", Where::World, &P::texture, nullptr},
       {"Transform", Where::Anywhere, &P::transform, nullptr},
       {"TransformBegin", Where::Anywhere, &P::transform_begin, nullptr},
       {"TransformEnd", Where::Anywhere, &P::transform_end, nullptr},
       {"TransformTimes", Where::Options, &P::transform_times, nullptr},
       {"Translate", Where::Anywhere, &P::translate, nullptr},
+      {"VolumeIntegrator", Where::Options, &P::old_ignored, nullptr},
       {"WorldBegin", Where::Options, &P::world_begin, nullptr},
       {"WorldEnd", Where::Anywhere, &P::world_end, nullptr},
   }};
@@ -194,18 +110,29 @@ void Parser::directives(Tokenizer& tokens) {
   for (Token token = tokens.next(); token.kind != TokenKind::End; token = tokens.next()) {
     const Rule& rule = find_rule(token);
     const Location where = tokens.where(token);
+    if (world_ended_.line != 0)
+      fail(where, std::string(rule.name) + " after the WorldEnd at " + to_string(world_ended_) +
+                      ": one file describes one picture");
     check_block(rule, where);
     if (rule.special != nullptr) {
       (this->*rule.special)(where);
     } else {
       std::string name = string_after(rule.name);
-      // Names that a scene makes up are checked where they are kept.
-      const bool made_up =
-          rule.name.starts_with("Make") || rule.name == "LayerBegin" || rule.name == "Attribute";
-      if (name.empty() && !made_up) fail(where, std::string(rule.name) + " needs a type, not \"\"");
+      // Names that a scene makes up are checked where they are kept; no area light is one too.
+      const bool made_up = rule.name.starts_with("Make") || rule.name == "LayerBegin" ||
+                           rule.name == "Attribute" || rule.name == "AreaLightSource";
+      if (name.empty() && !made_up) name = instead_of_none(rule, where);
       (state_.*rule.plugin)(std::move(name), parameters(), where);
     }
   }
+}
+
+// Directives without a type are errors, but old formats have a material of that name: none.
+std::string Parser::instead_of_none(const Rule& rule, const Location& where) {
+  const std::string message = std::string(rule.name) + " needs a type, not \"\"";
+  if (rule.name != "Material" || dialect_ == nullptr) fail(where, message);
+  old_.push_back({message, where, false});
+  return "none";
 }
 
 void Parser::run(std::string_view text, std::shared_ptr<const std::string> name, bool files,
@@ -217,7 +144,44 @@ void Parser::run(std::string_view text, std::shared_ptr<const std::string> name,
   open_.push_back({&tokenizer, std::move(canonical)});
   directives(tokenizer);
   state_.finish(tokenizer.where(tokenizer.peek()));
+  if (dialect_ != nullptr) dialect_->translate(scene_, old_, log_);
   open_.pop_back();
+}
+
+// Syntax of older formats: an error unless there is a dialect that knows them.
+void Parser::old_syntax(const std::string& what, const Location& where, const std::string& advice) {
+  if (dialect_ == nullptr) fail(where, what + advice);
+  old_.push_back({what, where});
+}
+
+void Parser::world_end(const Location& where) {
+  old_syntax("WorldEnd", where,
+             " is pbrt-v3 syntax: in pbrt-v4 the world ends with the file; remove it");
+  if (state_.block() == Block::Options) fail(where, "WorldEnd without WorldBegin");
+  world_ended_ = where;
+}
+
+void Parser::surface_integrator(const Location& where) {
+  old_syntax("SurfaceIntegrator", where, " is pbrt-v2 syntax; use Integrator");
+  std::string name = string_after("SurfaceIntegrator");
+  state_.integrator(std::move(name), parameters(), where);
+}
+
+// What chose parts of the program that have no choice any more.
+void Parser::old_ignored(const Location& where) {
+  old_syntax("Renderer or VolumeIntegrator", where,
+             " is pbrt-v2 syntax; Integrator alone says how to render");
+  string_after("this directive");
+  parameters();
+}
+
+ParameterSet Parser::parameters() {
+  ParameterSet list =
+      read_parameters(tokens(), state_.color_space(), dialect_ != nullptr ? &old_ : nullptr);
+  for (Parameter& p : list)
+    if (p.type == ParameterType::Texture)
+      for (std::string& name : p.strings) name = state_.texture_name(name);
+  return list;
 }
 
 std::string Parser::string_after(std::string_view directive) {
@@ -225,82 +189,6 @@ std::string Parser::string_after(std::string_view directive) {
   if (token.kind != TokenKind::String)
     tokens().fail(token, std::string(directive) + " must be followed by a string in quotes");
   return tokens().unescape(token);
-}
-
-// N numbers, in brackets or not.
-template <size_t N>
-std::array<double, N> Parser::numbers(std::string_view directive) {
-  std::array<double, N> values;
-  const bool bracket = tokens().peek().kind == TokenKind::Open;
-  if (bracket) tokens().next();
-  for (double& value : values) {
-    const Token token = tokens().next();
-    if (token.kind != TokenKind::Word || !parse_number(token.text, value))
-      tokens().fail(token, std::string(directive) + " must be followed by " + std::to_string(N) +
-                               " finite numbers");
-  }
-  if (!bracket) return values;
-  const Token token = tokens().next();
-  if (token.kind != TokenKind::Close)
-    tokens().fail(
-        token, std::string(directive) + ": expected ']' after " + std::to_string(N) + " numbers");
-  return values;
-}
-
-void Parser::active_transform(const Location&) {
-  const Token token = tokens().next();
-  if (token.text == "All")
-    state_.activate(true, true);
-  else if (token.text == "StartTime")
-    state_.activate(true, false);
-  else if (token.text == "EndTime")
-    state_.activate(false, true);
-  else
-    tokens().fail(token, "ActiveTransform must be followed by All, StartTime or EndTime");
-}
-
-// The file lists the matrix column by column, which is how glm stores it.
-dmat4 to_matrix(const std::array<double, 16>& values) {
-  dmat4 m;
-  for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = values[static_cast<size_t>(i)];
-  return m;
-}
-
-void Parser::concat_transform(const Location& where) {
-  state_.concatenate(to_matrix(numbers<16>("ConcatTransform")), where);
-}
-
-void Parser::transform(const Location& where) {
-  state_.replace(to_matrix(numbers<16>("Transform")), where);
-}
-
-void Parser::translate(const Location& where) {
-  const auto v = numbers<3>("Translate");
-  state_.concatenate(Transform::translate({v[0], v[1], v[2]}), where);
-}
-
-void Parser::scale(const Location& where) {
-  const auto v = numbers<3>("Scale");
-  state_.concatenate(Transform::scale({v[0], v[1], v[2]}), where);
-}
-
-void Parser::rotate(const Location& where) {
-  const auto v = numbers<4>("Rotate");
-  if (v[1] == 0.0 && v[2] == 0.0 && v[3] == 0.0) fail(where, "Rotate about an axis of length 0");
-  state_.concatenate(Transform::rotate(v[0], {v[1], v[2], v[3]}), where);
-}
-
-void Parser::look_at(const Location& where) {
-  const auto v = numbers<9>("LookAt");
-  const dmat4 m = Transform::look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]});
-  if (!Transform::is_invertible(m))
-    fail(where, "LookAt is singular: eye and target coincide, or up is along the view");
-  state_.concatenate(Transform(m), where);
-}
-
-void Parser::transform_times(const Location& where) {
-  const auto v = numbers<2>("TransformTimes");
-  state_.transform_times(static_cast<float>(v[0]), static_cast<float>(v[1]), where);
 }
 
 void Parser::include(const Location& where) { read_file("Include", where); }
@@ -317,6 +205,10 @@ void Parser::read_file(std::string_view directive, const Location& where) {
     fail(where,
          std::string(directive) + " is not possible here: the scene is not read from a file");
   const std::string path = (std::filesystem::path(scene_.directory) / named).string();
+  if (directive == "Import" && is_importable(path)) {
+    const std::string label = path + "#" + std::to_string(scene_.files_read.size());
+    return import_file({path, where, label, false}, state_, scene_, log_);
+  }
   std::error_code ignored;
   const std::string canonical = std::filesystem::weakly_canonical(path, ignored).string();
   for (const Source& source : open_)
@@ -360,30 +252,36 @@ void Parser::option(const Location& where) {
 
 void Parser::texture(const Location& where) {
   std::string name = string_after("Texture");
-  const std::string value = string_after("Texture");
+  std::string value = string_after("Texture");
+  if (value == "color" && dialect_ != nullptr) {
+    old_syntax("Texture of \"color\"", where, "");
+    value = "spectrum";
+  }
   std::string type = string_after("Texture");
   state_.texture(std::move(name), value, std::move(type), parameters(), where);
 }
 
-}  // namespace
-
-SceneDescription parse_file(const std::string& path, std::vector<std::string>* log) {
+SceneDescription parse_file(const std::string& path, std::vector<std::string>* log,
+                            const ParseOptions& options) {
+  if (is_importable(path)) return import_scene(path, log);
   const std::string text = read_text(path, {});
   SceneDescription scene;
   scene.file = path;
   scene.directory = std::filesystem::path(path).parent_path().string();
   std::error_code ignored;
   const std::string canonical = std::filesystem::weakly_canonical(path, ignored).string();
-  Parser(scene, log).run(text, std::make_shared<const std::string>(path), true, canonical);
+  Parser(scene, log, options).run(text, std::make_shared<const std::string>(path), true, canonical);
   return scene;
 }
 
 SceneDescription parse_string(std::string_view text, const std::string& name,
-                              const std::string& directory, std::vector<std::string>* log) {
+                              const std::string& directory, std::vector<std::string>* log,
+                              const ParseOptions& options) {
   SceneDescription scene;
   scene.file = name;
   scene.directory = directory;
-  Parser(scene, log).run(text, std::make_shared<const std::string>(name), !directory.empty(), "");
+  Parser(scene, log, options)
+      .run(text, std::make_shared<const std::string>(name), !directory.empty(), "");
   return scene;
 }
 

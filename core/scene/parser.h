@@ -9,17 +9,21 @@
 #include <vector>
 
 #include "core/scene/description.h"
+#include "core/scene/dialect.h"
 
 namespace pssmlt {
 
+// Files of other formats (core/scene/import.h) are read by their importers.
 // Throws Error, with the place and the quoted line, on anything that is not a well-formed scene.
 // Notes for the user (deprecated syntax and the like) are appended to log unless it is null.
-SceneDescription parse_file(const std::string& path, std::vector<std::string>* log);
+SceneDescription parse_file(const std::string& path, std::vector<std::string>* log,
+                            const ParseOptions& options = {});
 
 // The same for text in memory; `name` stands for the file in messages. Include and Import are
 // errors, and the file system is not touched, unless a directory is given to resolve them against.
 SceneDescription parse_string(std::string_view text, const std::string& name,
                               const std::string& directory = "",
-                              std::vector<std::string>* log = nullptr);
+                              std::vector<std::string>* log = nullptr,
+                              const ParseOptions& options = {});
 
 }  // namespace pssmlt

@@ -50,7 +50,42 @@ void Scene::complete(const RawHit& raw, Hit& hit) const {
   hit.footprint = footprint(hit.position);
 }
 
+float Scene::opacity(const Hit& hit) {
+  const Texture<float>* const alpha = hit.primitive->alpha.get();
+  return alpha ? std::fmin(std::fmax(alpha->evaluate(hit), 0.f), 1.f) : 1.f;
+}
+
 bool Scene::intersect(const Ray& ray, float u_alpha, Hit& hit) const {
+  if (!features_.media) return intersect_any(ray, u_alpha, hit);
+  Ray rest = ray;
+  float travelled = 0.f;
+  while (intersect_any(rest, u_alpha, hit)) {
+    hit.distance += travelled;
+    if (!bounds_medium(hit)) return true;
+    travelled = hit.distance;
+    rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);
+    rest.t_max = ray.t_max - travelled;
+    if (!(rest.t_max > 0.f)) break;
+  }
+  return false;
+}
+
+bool Scene::nearest(const Ray& ray, Hit& hit) const {
+  ++thread_counters.shadow;
+  RawHit raw;
+  const bool found = accel_->intersect(ray, raw);
+  if (found) complete(raw, hit);
+  if (path_logged) log_ray("shadow ray", ray, found ? "meets " + hit.primitive->name : "free");
+  return found;
+}
+
+const Medium* Scene::light_medium(const Light& light, const EndpointPoint& at,
+                                  const vec3& direction) const {
+  const auto found = light_media_.find(&light);
+  return found == light_media_.end() ? nullptr : found->second.toward(direction, at.normal);
+}
+
+bool Scene::intersect_any(const Ray& ray, float& u_alpha, Hit& hit) const {
   ++thread_counters.nearest;
   bool found = false;
   if (features_.alpha) {
@@ -68,18 +103,17 @@ bool Scene::intersect(const Ray& ray, float u_alpha, Hit& hit) const {
   return found;
 }
 
-bool Scene::intersect_cut_outs(const Ray& ray, float u_alpha, Hit& hit) const {
+bool Scene::intersect_cut_outs(const Ray& ray, float& u_alpha, Hit& hit) const {
   RawHit raw;
   Ray rest = ray;
   float travelled = 0.f;
   while (accel_->intersect(rest, raw)) {
     complete(raw, hit);
-    const Texture<float>* const alpha = raw.primitive->alpha.get();
-    const float opacity = alpha ? alpha->evaluate(hit) : 1.f;
+    const float alpha = opacity(hit);
     hit.distance += travelled;
-    if (opacity >= 1.f || u_alpha < opacity) return true;
+    if (alpha >= 1.f || u_alpha < alpha) return true;
     // Inversion over the sorted hits: what is left of the number decides at the next one.
-    u_alpha = std::min((u_alpha - opacity) / (1.f - opacity), one_minus_epsilon);
+    u_alpha = std::min((u_alpha - alpha) / (1.f - alpha), one_minus_epsilon);
     travelled = hit.distance;
     rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);
     rest.t_max = ray.t_max - travelled;
@@ -90,38 +124,44 @@ bool Scene::intersect_cut_outs(const Ray& ray, float u_alpha, Hit& hit) const {
 
 float Scene::visibility(const Ray& ray) const {
   ++thread_counters.shadow;
-  if (!features_.alpha) {
+  if (!features_.alpha && !features_.media) {
     const bool blocked = accel_->occluded(ray);
     if (path_logged) log_ray("shadow ray", ray, blocked ? "blocked" : "free");
     return blocked ? 0.f : 1.f;
   }
+  const float passed = visibility_of_cut_outs(ray);
+  if (path_logged) log_ray("shadow ray", ray, fmt::format("passes {:.6g}", passed));
+  return passed;
+}
+
+float Scene::visibility_of_cut_outs(const Ray& ray) const {
   float passed = 1.f;
   RawHit raw;
   Hit hit;
   Ray rest = ray;
   while (accel_->intersect(rest, raw)) {
-    const Texture<float>* const alpha = raw.primitive->alpha.get();
-    if (!alpha) return 0.f;
+    hit.primitive = raw.primitive;
+    const bool seen = !bounds_medium(hit);
+    if (seen && !raw.primitive->alpha) return 0.f;
     complete(raw, hit);
-    passed *= 1.f - std::fmin(std::fmax(alpha->evaluate(hit), 0.f), 1.f);
+    if (seen) passed *= 1.f - opacity(hit);
     if (!(passed > 0.f)) return 0.f;
     rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);
     rest.t_max -= hit.distance;
     if (!(rest.t_max > 0.f)) break;
   }
-  if (path_logged) log_ray("shadow ray", ray, fmt::format("passes {:.6g}", passed));
   return passed;
 }
 
 Ray Scene::segment(const vec3& from, const vec3& from_error, const vec3& from_normal,
-                   const vec3& to, const vec3& to_error, const vec3& to_normal) {
+                   const vec3& to, const vec3& to_error, const vec3& to_normal, float time) {
   const vec3 straight = to - from;
   const vec3 a = offset_origin(from, from_error, from_normal, straight);
   const vec3 b = offset_origin(to, to_error, to_normal, -straight);
   const vec3 d = b - a;
   const float length = glm::length(d);
   // The far end is already in front of its surface; the factor only covers the rounding of t.
-  return {a, length > 0.f ? d / length : vec3(0.f, 0.f, 1.f), length * (1.f - 0x1p-20f)};
+  return {a, length > 0.f ? d / length : vec3(0.f, 0.f, 1.f), length * (1.f - 0x1p-20f), time};
 }
 
 Rgb Scene::emitted(const Hit& hit, const vec3& direction) const {
@@ -136,30 +176,9 @@ Rgb Scene::background(const vec3& direction) const {
   return sum;
 }
 
-// The bump map's tangent plane (Blinn 1978; Pharr, Jakob, Humphreys 2023, section 10.5.3): the
-// surface moved along the shading normal by the height field, differentiated by finite differences
-// one footprint wide.
 Frame Scene::shading_frame(const Hit& hit) const {
-  const Texture<float>* const height = hit.primitive->material->displacement();
-  if (!height) return Frame::from_tangent(hit.ns, hit.dpdu);
-  const float lu = glm::length(hit.dpdu), lv = glm::length(hit.dpdv);
-  const float du = lu > 0.f ? std::fmax(0.5f * hit.footprint / lu, 5e-4f) : 5e-4f;
-  const float dv = lv > 0.f ? std::fmax(0.5f * hit.footprint / lv, 5e-4f) : 5e-4f;
-  Hit moved = hit;
-  const float h = height->evaluate(hit);
-  moved.position = hit.position + du * hit.dpdu;
-  moved.uv = hit.uv + vec2(du, 0.f);
-  const float hu = height->evaluate(moved);
-  moved.position = hit.position + dv * hit.dpdv;
-  moved.uv = hit.uv + vec2(0.f, dv);
-  const float hv = height->evaluate(moved);
-  const vec3 dpdu = hit.dpdu + (hu - h) / du * hit.ns + h * hit.dndu;
-  const vec3 dpdv = hit.dpdv + (hv - h) / dv * hit.ns + h * hit.dndv;
-  vec3 n = glm::cross(dpdu, dpdv);
-  if (!(length_squared(n) > 0.f) || !is_finite(n)) return Frame::from_tangent(hit.ns, hit.dpdu);
-  n = glm::normalize(n);
-  if (glm::dot(n, hit.ng) < 0.f) n = -n;
-  return Frame::from_tangent(n, dpdu);
+  const ShadingNormals* const normals = hit.primitive->material->shading_normals();
+  return normals ? normals->frame(hit) : Frame::from_tangent(hit.ns, hit.dpdu);
 }
 
 }  // namespace pssmlt

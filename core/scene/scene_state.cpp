@@ -100,6 +100,9 @@ void SceneState::camera(std::string type, ParameterSet parameters, const Locatio
   TransformPair inverse{camera.transform.start.inverse(), nullptr};
   if (camera.transform.animated())
     inverse.end = std::make_shared<const Transform>(camera.transform.end->inverse());
+  if (keep_steps_)
+    inverse.steps = std::make_shared<TransformStep>("CoordSysTransform \"camera\"",
+                                                    std::array{true, true}, nullptr);
   scene_.coordinate_systems["camera"] = std::move(inverse);
   scene_.camera = std::move(camera);
 }
@@ -165,12 +168,22 @@ std::string SceneState::take_type(ParameterSet& parameters, const char* kind,
 }
 
 void SceneState::named_material(std::string name, ParameterSet parameters, const Location& where) {
-  if (const auto known = materials_.find(name); known != materials_.end())
-    fail(where, "named material " + in_quotes(name) + " is already defined at " +
-                    to_string(scene_.materials[known->second].where));
+  const auto known = materials_.find(name);
+  if (known != materials_.end()) {
+    const std::string message = "named material " + in_quotes(name) + " is already defined at " +
+                                to_string(scene_.materials[known->second].where);
+    if (again_ == nullptr) fail(where, message);
+    again_->push_back({message, where, false});
+  }
   parameters = with_attributes(std::move(parameters), MaterialTarget);
   std::string type = take_type(parameters, "material", name, where);
-  materials_[name] = static_cast<uint32_t>(scene_.materials.size());
+  const auto index = static_cast<uint32_t>(scene_.materials.size());
+  if (known != materials_.end()) {
+    known->second = index;
+    name += " (" + std::to_string(index) + ")";
+  } else {
+    materials_[name] = index;
+  }
   scene_.materials.push_back(
       {{std::move(type), std::move(parameters), where, {}}, std::move(name)});
 }
@@ -203,11 +216,43 @@ void SceneState::texture(std::string name, const std::string& value, std::string
                     "; must be \"float\" or \"spectrum\"");
   const bool is_float = value == "float";
   auto& known = is_float ? float_textures_ : spectrum_textures_;
+  name = texture_name(name);
+  if (again_ != nullptr && known.contains(name)) name = redeclare_texture(name, is_float, where);
   check_new(known, is_float ? "float texture" : "spectrum texture", name, where);
   known[name] = where;
   scene_.textures.push_back(
       {placed(std::move(type), with_attributes(std::move(parameters), TextureTarget), where),
        std::move(name), is_float ? TextureValue::Float : TextureValue::Spectrum});
+}
+
+const std::string& SceneState::texture_name(const std::string& name) const {
+  const auto found = texture_names_.find(name);
+  return found == texture_names_.end() ? name : found->second;
+}
+
+// A new name for the texture that is declared again as `name`. Parameters do not say which form of
+// texture they mean, so that one of the other form gets the new name as well.
+std::string SceneState::redeclare_texture(const std::string& name, bool is_float,
+                                          const Location& where) {
+  again_->push_back({"texture " + in_quotes(name) + " is already defined at " +
+                         to_string((is_float ? float_textures_ : spectrum_textures_)[name]),
+                     where, false});
+  std::string plain = name;  // as the scene calls it
+  for (const auto& [called, declared] : texture_names_)
+    if (declared == name) plain = called;
+  const std::string renamed = plain + " (" + std::to_string(scene_.textures.size()) + ")";
+  texture_names_[plain] = renamed;
+  auto& others = is_float ? spectrum_textures_ : float_textures_;
+  if (!others.contains(name)) return renamed;
+  others[renamed] = others[name];
+  const TextureValue other = is_float ? TextureValue::Spectrum : TextureValue::Float;
+  const auto copied = std::ranges::find_if(scene_.textures, [&](const TextureDescription& t) {
+    return t.name == name && t.value == other;
+  });
+  TextureDescription copy = *copied;
+  copy.name = renamed;
+  scene_.textures.push_back(std::move(copy));
+  return renamed;
 }
 
 void SceneState::option(Parameter option) {
@@ -263,6 +308,7 @@ void SceneState::world_begin(const Location& where) {
   now_.ctm = {};
   now_.singular = {};
   now_.active = {true, true};
+  now_.steps = nullptr;
   scene_.coordinate_systems["world"] = {};
 }
 
@@ -291,14 +337,17 @@ void SceneState::resolve_materials() {
 }
 
 void SceneState::resolve_instances() {
-  for (size_t i = 0; i < instance_names_.size(); ++i) {
-    const auto& [name, where] = instance_names_[i];
-    const auto found = objects_.find(name);
+  std::vector<size_t> next(scene_.objects.size() + 1, 0);  // of each place's instances, world first
+  for (const PendingInstance& pending : instance_names_) {
+    const auto found = objects_.find(pending.name);
     if (found == objects_.end())
-      fail(where,
-           "object " + in_quotes(name) + " is not defined" + suggestion(name, names(objects_)));
-    scene_.instances[i].object = found->second;
+      fail(pending.where, "object " + in_quotes(pending.name) + " is not defined" +
+                              suggestion(pending.name, names(objects_)));
+    const auto place = static_cast<size_t>(pending.inside + 1);
+    auto& instances = place == 0 ? scene_.instances : scene_.objects[place - 1].instances;
+    instances[next[place]++].object = found->second;
   }
+  check_nesting();
 }
 
 void SceneState::finish(const Location& end) {

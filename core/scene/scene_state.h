@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/scene/description.h"
+#include "core/scene/dialect.h"
 
 namespace pssmlt {
 
@@ -26,6 +27,8 @@ class SceneState {
 
   Block block() const { return block_; }
   bool in_layer() const { return in_layer_; }
+  bool in_object() const { return in_object_; }
+  const std::string& outside_medium() const { return now_.outside_medium; }
   const std::shared_ptr<const std::string>& color_space() const { return now_.color_space; }
 
   // Directives with a plugin's name and parameters.
@@ -73,6 +76,17 @@ class SceneState {
   void use_coordinates(const std::string& name, const Location& where);
   void activate(bool start, bool end) { now_.active = {start, end}; }
   void transform_times(float start, float end, const Location& where);
+  // Names of textures and materials may be declared again, as older formats have it: uses that
+  // follow mean the new one. Each time goes to `again`.
+  void allow_redeclaration(std::vector<OldSyntax>* again) { again_ = again; }
+  // The name under which a texture that a parameter names is declared.
+  const std::string& texture_name(const std::string& name) const;
+
+  // From here on the placed directives keep how they were placed. `text` is the directive that was
+  // just applied; it replaces all steps before if it replaces the matrices.
+  void keep_steps() { keep_steps_ = true; }
+  bool keeps_steps() const { return keep_steps_; }
+  void record_step(std::string text, bool replaces);
 
   // An imported file starts with the current state, must be balanced in itself, and leaves only
   // what it declared.
@@ -85,6 +99,7 @@ class SceneState {
     std::array<Transform, 2> ctm;      // at the start and the end of the shutter interval
     std::array<Location, 2> singular;  // where the ctm became singular; line 0: it is not
     std::array<bool, 2> active{true, true};
+    std::shared_ptr<const TransformStep> steps;
     float start_time = 0.f, end_time = 1.f;
     bool reverse_orientation = false;
     uint32_t material = 0;
@@ -114,6 +129,7 @@ class SceneState {
   TransformPair placement(const Location& where) const;
   Directive placed(std::string type, ParameterSet parameters, const Location& where) const;
   void set_singular(size_t i, const Location& where);
+  std::string redeclare_texture(const std::string& name, bool is_float, const Location& where);
   ParameterSet with_attributes(ParameterSet parameters, Target target) const;
   std::string take_type(ParameterSet& parameters, const char* kind, const std::string& name,
                         const Location& where) const;
@@ -121,6 +137,7 @@ class SceneState {
   void check_media() const;
   void resolve_materials();
   void resolve_instances();
+  void check_nesting() const;
 
   SceneDescription& scene_;
   Fail fail_;
@@ -130,7 +147,10 @@ class SceneState {
   std::vector<Pushed> pushed_;
   size_t import_base_ = 0;  // states below belong to the importing file
   bool in_object_ = false, in_layer_ = false, noted_transform_begin_ = false;
-  Directive sampler_, integrator_;  // outside layers
+  bool keep_steps_ = false;
+  std::vector<OldSyntax>* again_ = nullptr;  // null: declaring a name again is an error
+  std::map<std::string, std::string, std::less<>> texture_names_;  // declared again: the last
+  Directive sampler_, integrator_;                                 // outside layers
 
   // Where each name was declared.
   std::map<std::string, Location, std::less<>> float_textures_, spectrum_textures_, media_, layers_;
@@ -138,7 +158,12 @@ class SceneState {
   // Names may be used before they are declared: shapes then hold pending_bit | index of the name.
   std::vector<PendingName> pending_materials_;
   std::map<std::string, uint32_t, std::less<>> pending_index_;
-  std::vector<PendingName> instance_names_;  // one per instance
+  // Names of the instances in the order of the file, and what each stands in: the world, or the
+  // object of this index.
+  struct PendingInstance : PendingName {
+    int inside = -1;
+  };
+  std::vector<PendingInstance> instance_names_;
   std::map<std::string, Location, std::less<>> media_used_;
 };
 

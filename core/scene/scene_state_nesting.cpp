@@ -1,4 +1,5 @@
 // The part of SceneState that is a stack: transformations, attributes, objects, imports.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -63,6 +64,7 @@ void SceneState::pop(Nested kind, const Location& where) {
     now_.ctm = top.state.ctm;
     now_.singular = top.state.singular;
     now_.active = top.state.active;
+    now_.steps = top.state.steps;
   } else {
     now_ = std::move(top.state);
   }
@@ -78,7 +80,7 @@ void SceneState::object_begin(const std::string& name, const Location& where) {
                     to_string(scene_.objects[known->second].where));
   push(Nested::Object, where);
   objects_[name] = static_cast<uint32_t>(scene_.objects.size());
-  scene_.objects.push_back({name, where, {}});
+  scene_.objects.push_back({name, where, {}, {}});
   in_object_ = true;
 }
 
@@ -88,18 +90,52 @@ void SceneState::object_end(const Location& where) {
 }
 
 void SceneState::object_instance(const std::string& name, const Location& where) {
-  if (in_object_)
-    fail(where, "ObjectInstance inside the definition of object \"" + scene_.objects.back().name +
-                    "\": objects cannot contain instances");
-  scene_.instances.push_back({0, placement(where), where});
-  instance_names_.push_back({name, where});
+  auto& instances = in_object_ ? scene_.objects.back().instances : scene_.instances;
+  instances.push_back({0, placement(where), where});
+  const int inside = in_object_ ? static_cast<int>(scene_.objects.size()) - 1 : -1;
+  instance_names_.push_back({{name, where}, inside});
+}
+
+// Depth first, with a stack of its own: objects may be nested deeper than calls.
+void SceneState::check_nesting() const {
+  constexpr int deepest = 100;
+  enum class Visit : uint8_t { none, open, done };
+  std::vector<Visit> visits(scene_.objects.size(), Visit::none);
+  std::vector<int> depths(scene_.objects.size(), 0);
+  for (uint32_t root = 0; root < visits.size(); ++root) {
+    if (visits[root] != Visit::none) continue;
+    std::vector<std::pair<uint32_t, size_t>> path{{root, 0}};  // object, its next instance
+    visits[root] = Visit::open;
+    while (!path.empty()) {
+      auto& [object, next] = path.back();
+      const auto& instances = scene_.objects[object].instances;
+      if (next == instances.size()) {
+        visits[object] = Visit::done;
+        for (const InstanceDescription& inner : instances) {
+          depths[object] = std::max(depths[object], depths[inner.object] + 1);
+          if (depths[object] > deepest)
+            fail(inner.where, "objects are nested more than " + std::to_string(deepest) + " deep");
+        }
+        path.pop_back();
+        continue;
+      }
+      const InstanceDescription& instance = instances[next++];
+      if (visits[instance.object] == Visit::open)
+        fail(instance.where, "object \"" + scene_.objects[instance.object].name +
+                                 "\" would contain itself by this instance");
+      if (visits[instance.object] == Visit::none) {
+        visits[instance.object] = Visit::open;
+        path.emplace_back(instance.object, 0);
+      }
+    }
+  }
 }
 
 TransformPair SceneState::placement(const Location& where) const {
   for (const Location& singular : now_.singular)
     if (singular.line != 0)
       fail(singular, "this makes the transformation singular; it is used at " + to_string(where));
-  TransformPair result{now_.ctm[0], nullptr};
+  TransformPair result{now_.ctm[0], nullptr, now_.steps};
   if (now_.ctm[0].matrix() != now_.ctm[1].matrix())
     result.end = std::make_shared<const Transform>(now_.ctm[1]);
   return result;
@@ -149,6 +185,13 @@ void SceneState::use_coordinates(const std::string& name, const Location& where)
   const TransformPair& t = found->second;
   now_.ctm = {t.start, t.animated() ? *t.end : t.start};
   now_.singular = {};
+  now_.steps = t.steps;
+}
+
+void SceneState::record_step(std::string text, bool replaces) {
+  const bool all = now_.active[0] && now_.active[1];
+  now_.steps = std::make_shared<TransformStep>(std::move(text), now_.active,
+                                               replaces && all ? nullptr : now_.steps);
 }
 
 void SceneState::transform_times(float start, float end, const Location& where) {

@@ -78,9 +78,13 @@ void MeshShape::check(const MeshData& data, const Parameters& p) const {
   check_size(m.normals.size(), "N", "normals");
   check_size(m.uvs.size(), "uv", "texture coordinates");
   check_size(data.tangents.size(), "S", "tangents");
+  check_size(m.second_uvs.size(), "uv1", "second texture coordinates");
+  check_size(m.colors.size(), "color", "colours");
+  check_size(m.opacities.size(), "coloralpha", "opacities");
   if (!all_finite(m.positions)) p.fail("P", "a vertex has a coordinate that is not finite");
   if (!all_finite(m.normals)) p.fail("N", "a normal has a component that is not finite");
   if (!all_finite(m.uvs)) p.fail("uv", "a texture coordinate is not finite");
+  if (!all_finite(m.second_uvs)) p.fail("uv1", "a texture coordinate is not finite");
   if (!all_finite(data.tangents)) p.fail("S", "a tangent has a component that is not finite");
   for (const glm::uvec3& t : m.triangles)
     for (int i = 0; i < 3; ++i)
@@ -138,6 +142,18 @@ void MeshShape::find_plane() {
   plane_ = plane;
 }
 
+DirectionCone MeshShape::normals() const {
+  DirectionCone cone = DirectionCone::none();
+  for (uint32_t i = 0; i < mesh_.triangles.size() && !cone.is_all(); ++i) {
+    // Where shading normals disagree about the side, both sides are outside.
+    for (int k = 0; k < (mesh_.normals.empty() ? 1 : 3); ++k) {
+      const vec3 ns = mesh_.normals.empty() ? vec3(0.f) : mesh_.normals[mesh_.triangles[i][k]];
+      cone.add({outside(i, ns), 1.f});
+    }
+  }
+  return cone;
+}
+
 const Distribution1D& MeshShape::areas() const {
   // The flag spares every sample the call into the threads' library.
   if (!areas_made_.load(std::memory_order_acquire)) {
@@ -186,6 +202,7 @@ vec2 MeshShape::interpolated_uv(uint32_t triangle, const vec3& b) const {
 void MeshShape::fill(const vec2& where, Hit& hit) const {
   const Corners c = corners(hit.element);
   const vec3 b = barycentric(where);
+  hit.where = where;
   hit.position = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
   hit.error =
       interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) + glm::abs(b.z * c.p2));
@@ -226,15 +243,17 @@ void MeshShape::set_derivatives(uint32_t triangle, const Corners& c, Hit& hit) c
   solve(n0 - n2, n1 - n2, hit.dndu, hit.dndv);
 }
 
-// The given tangent, perpendicular to the shading normal, replaces the direction of dpdu.
+// The given tangent, perpendicular to the shading normal, replaces the direction of dpdu; dpdv
+// keeps its side, which mirrored texture coordinates turn.
 void MeshShape::set_tangent(uint32_t triangle, const vec3& b, Hit& hit) const {
   const vec3 s = mix(tangents_, mesh_.triangles[triangle], b);
   const vec3 along = s - hit.ns * glm::dot(s, hit.ns);
   const float l2 = length_squared(along);
   if (!(l2 > 0.f)) return;
   const vec3 unit = along / std::sqrt(l2);
+  const float side = glm::dot(glm::cross(hit.ns, hit.dpdu), hit.dpdv) < 0.f ? -1.f : 1.f;
   hit.dpdu = glm::length(hit.dpdu) * unit;
-  hit.dpdv = glm::length(hit.dpdv) * glm::cross(hit.ns, unit);
+  hit.dpdv = side * glm::length(hit.dpdv) * glm::cross(hit.ns, unit);
 }
 
 SurfaceSample MeshShape::sample_area(const vec2& u) const {

@@ -33,6 +33,7 @@ class MeshShape : public Shape {
   // Uniform over the surface: a triangle by its area, then a point in it.
   SurfaceSample sample_area(const vec2& u) const final;
   bool may_face(const vec3& reference) const final { return plane_.may_face(reference); }
+  DirectionCone normals() const final;
 
  private:
   struct Corners {

@@ -105,6 +105,17 @@ std::optional<UserHit> PatchShape::intersect(const Ray& ray, float t_min) const 
   return nearest;
 }
 
+DirectionCone PatchShape::normals() const {
+  if (!data_.normals.empty()) return {};
+  DirectionCone cone = DirectionCone::none();
+  for (uint32_t i = 0; i < data_.quads.size(); ++i) {
+    for (const dvec2 corner : {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(1, 1)}) {
+      cone.add({vec3(outside(i, corner, vec3(0.f))), 1.f});
+    }
+  }
+  return cone;
+}
+
 vec3 PatchShape::shading_normal(uint32_t element, const dvec2& uv) const {
   if (data_.normals.empty()) return vec3(0.f);
   const vec3 n = bilinear(data_.normals, data_.quads[element], uv);
@@ -183,11 +194,25 @@ double PatchShape::patch_area(uint32_t element) const {
   return sum / (n * n);
 }
 
+constexpr double everywhere = 0.1;  // of the points, whatever the emission
+
+dvec2 PatchShape::sample_parameters(const dvec2& u) const {
+  if (!(data_.emission.sum() > 0.0)) return u;
+  if (u.x < everywhere) return {u.x / everywhere, u.y};
+  const dvec2 at = data_.emission.sample({(u.x - everywhere) / (1.0 - everywhere), u.y}).uv;
+  return {at.x, 1.0 - at.y};
+}
+
+double PatchShape::pdf_parameters(const dvec2& uv) const {
+  if (!(data_.emission.sum() > 0.0)) return 1.0;
+  return everywhere + (1.0 - everywhere) * data_.emission.pdf({uv.x, 1.0 - uv.y});
+}
+
 SurfaceSample PatchShape::sample_area(const vec2& u) const {
   SurfaceSample s;
   if (!(choice_.sum() > 0.0)) return s;
   const auto cell = choice_.sample(static_cast<double>(u.x));
-  const dvec2 uv(cell.offset, static_cast<double>(u.y));
+  const dvec2 uv = sample_parameters({cell.offset, static_cast<double>(u.y)});
   const Patch q = patch(cell.index);
   const dvec3 p = q.at(uv);
   s.position = vec3(p);
@@ -196,7 +221,7 @@ SurfaceSample PatchShape::sample_area(const vec2& u) const {
   s.uv = texture_uv(cell.index, uv);
   s.element = cell.index;
   const double stretch = glm::length(q.cross(uv));
-  s.pdf = stretch > 0.0 ? static_cast<float>(cell.probability / stretch) : 0.f;
+  s.pdf = stretch > 0.0 ? static_cast<float>(cell.probability * pdf_parameters(uv) / stretch) : 0.f;
   return s;
 }
 
@@ -216,8 +241,10 @@ dvec2 PatchShape::parameters(const SurfaceSample& at) const {
 }
 
 float PatchShape::pdf_area(const SurfaceSample& at) const {
-  const double stretch = glm::length(patch(at.element).cross(parameters(at)));
-  return stretch > 0.0 ? static_cast<float>(choice_.probability(at.element) / stretch) : 0.f;
+  const dvec2 uv = parameters(at);
+  const double stretch = glm::length(patch(at.element).cross(uv));
+  const double pdf = choice_.probability(at.element) * pdf_parameters(uv);
+  return stretch > 0.0 ? static_cast<float>(pdf / stretch) : 0.f;
 }
 
 }  // namespace pssmlt

@@ -22,6 +22,9 @@ struct PatchData {
   std::vector<vec3> normals;  // empty or one a vertex
   std::vector<vec2> uvs;      // empty or one a vertex
   std::vector<Quad> quads;    // indices in range
+  // Where points are sampled on each patch, by (u, 1 - v), a tenth of them everywhere; empty:
+  // uniformly. For lamps that show an image.
+  Distribution2D emission;
 };
 
 class PatchShape final : public Shape {
@@ -33,9 +36,11 @@ class PatchShape final : public Shape {
   std::optional<UserHit> intersect(const Ray& ray, float t_min) const override;
   void fill(const vec2& where, Hit& hit) const override;
   float area() const override { return static_cast<float>(choice_.sum()); }
-  // A patch by its area, then uniform in its parameters.
+  // A patch by its area, then uniform in its parameters or by its emission.
   SurfaceSample sample_area(const vec2& u) const override;
   float pdf_area(const SurfaceSample& at) const override;
+  // The normal's direction is bilinear in those of the corners; shading normals may turn it over.
+  DirectionCone normals() const override;
 
  private:
   struct Patch {
@@ -55,6 +60,9 @@ class PatchShape final : public Shape {
   vec3 shading_normal(uint32_t element, const dvec2& uv) const;
   vec2 texture_uv(uint32_t element, const dvec2& uv) const;
   void set_texture_derivatives(uint32_t element, const dvec2& uv, Hit& hit) const;
+  // A point of the parameters from two numbers, and the density with which it is drawn [1].
+  dvec2 sample_parameters(const dvec2& u) const;
+  double pdf_parameters(const dvec2& uv) const;
   // Parameters of a point of the surface.
   dvec2 parameters(const SurfaceSample& at) const;
 

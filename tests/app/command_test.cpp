@@ -15,6 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/image/image_file.h"
+
 namespace pssmlt {
 namespace {
 namespace fs = std::filesystem;
@@ -175,6 +177,21 @@ TEST_F(Command, ChecksOutputsBeforeRendering) {
   fs::create_directory(folder_ / "locked");
   fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_EQ(run({scene_, "-o", in("locked/a.exr")}), 2);
+}
+
+TEST_F(Command, FilmGbufferWritesLayersWhereAFormatHoldsThem) {
+  std::ofstream(in("ball.txt"))
+      << "Film \"gbuffer\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"string "
+         "coordinatesystem\" \"world\" WorldBegin LightSource \"distant\" Translate 0 0 3 Shape "
+         "\"sphere\"";
+  ASSERT_EQ(run({in("ball.txt"), "--spp", "64", "-o", in("a.exr"), "-o", in("a.pfm")}), 0)
+      << error();
+  const ImageFile image = read_image_file(in("a.exr"));
+  for (const char* layer : {"R", "albedo.R", "normal.Y", "variance.B"}) {
+    EXPECT_GE(image.find(layer), 0) << layer;
+  }
+  EXPECT_EQ(read_image_file(in("a.pfm")).channels, 3);
+  EXPECT_FALSE(says("world space"));
 }
 
 TEST_F(Command, InterruptWritesWhatThereIs) {

@@ -52,9 +52,9 @@ TEST(Startup, ImageLibrariesAreNotMappedWhileRendering) {
   std::filesystem::remove(output);
   EXPECT_NE(maps.find("/integrator/path.so"), std::string::npos) << "the render did not start";
   EXPECT_NE(maps.find("libembree"), std::string::npos);
-  for (const char* library :
-       {"libOpenImageIO", "libOpenColorIO", "libtinygltf", "/gltf.so", "libcpp-httplib",
-        "/live_server.so", "/image_io.so", "/display.so", "/imagemap.so", "/bdpt.so"}) {
+  for (const char* library : {"libOpenImageIO", "libOpenColorIO", "libtinygltf", "/gltf.so",
+                              "/import_gltf.so", "libdraco", "libcpp-httplib", "/live_server.so",
+                              "/image_io.so", "/display.so", "/imagemap.so", "/bdpt.so"}) {
     EXPECT_EQ(maps.find(library), std::string::npos) << library << " is mapped";
   }
 }

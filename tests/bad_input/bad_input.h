@@ -27,6 +27,7 @@ inline void PrintTo(const BadInput& bad, std::ostream* out) { *out << bad.name; 
 std::vector<BadInput> bad_syntax();
 std::vector<BadInput> bad_directives();
 std::vector<BadInput> bad_shapes();
+std::vector<BadInput> bad_gltf_scenes();
 std::vector<BadInput> bad_files();
 std::vector<BadInput> bad_usage();
 std::vector<BadInput> poor_scenes();  // strange, but with a right picture

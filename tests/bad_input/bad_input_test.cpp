@@ -83,6 +83,7 @@ std::string name_of(const ::testing::TestParamInfo<BadInput>& info) { return inf
 INSTANTIATE_TEST_SUITE_P(Syntax, Bad, ::testing::ValuesIn(bad_syntax()), name_of);
 INSTANTIATE_TEST_SUITE_P(Directives, Bad, ::testing::ValuesIn(bad_directives()), name_of);
 INSTANTIATE_TEST_SUITE_P(Shapes, Bad, ::testing::ValuesIn(bad_shapes()), name_of);
+INSTANTIATE_TEST_SUITE_P(Gltf, Bad, ::testing::ValuesIn(bad_gltf_scenes()), name_of);
 INSTANTIATE_TEST_SUITE_P(Files, Bad, ::testing::ValuesIn(bad_files()), name_of);
 INSTANTIATE_TEST_SUITE_P(Usage, Bad, ::testing::ValuesIn(bad_usage()), name_of);
 INSTANTIATE_TEST_SUITE_P(Poor, Bad, ::testing::ValuesIn(poor_scenes()), name_of);

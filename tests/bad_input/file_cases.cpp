@@ -173,6 +173,10 @@ std::vector<BadInput> poor_scenes() {
       poor("LampInObject",
            world("ObjectBegin \"o\" AreaLightSource \"diffuse\" Shape \"sphere\" ObjectEnd "
                  "ObjectInstance \"o\""),
+           {}),
+      poor("LampInMovingObject",
+           world("ObjectBegin \"o\" AreaLightSource \"diffuse\" Shape \"sphere\" ObjectEnd "
+                 "ActiveTransform EndTime Translate 1 0 0 ObjectInstance \"o\""),
            {"not emitting"}),
       poor("EmissiveInterface",
            world("Material \"interface\" AreaLightSource \"diffuse\" Shape \"sphere\""),

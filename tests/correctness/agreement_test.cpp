@@ -1,5 +1,5 @@
 // Every integrator under every kind of sampler shows the same picture, on the classes of paths that
-// it sees: the pictures of six scenes are compared by blocks of 16 x 16 pixels with those of the
+// it sees: the pictures of eleven scenes are compared by blocks of 16 x 16 pixels with those of the
 // integrator that sees most, under the default sampler.
 //
 // False alarms: below 10^-6 for each test. Power: 0.99 against an error of 2 % that all blocks

@@ -30,7 +30,7 @@ inline std::string both(const std::string& a, const std::string& b) { return a +
 
 // All classes with up to `bounces` scattering vertices, e.g. "ADSE".
 inline std::vector<std::string> all_classes(int bounces) {
-  std::vector<std::string> out, level = {"A", "I", "P"};
+  std::vector<std::string> out, level = {"A", "I", "P", "V"};
   for (int k = 0; k <= bounces; ++k) {
     std::vector<std::string> next;
     for (const std::string& path : level) {

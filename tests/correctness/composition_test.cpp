@@ -38,6 +38,14 @@ AttributeBegin
   Translate .55 .4 .2
   Shape "sphere" "float radius" .4
 AttributeEnd
+MakeNamedMedium "glow" "string type" "homogeneous" "rgb sigma_a" [ 1 1 1 ]
+  "rgb sigma_s" [ 2 2 2 ] "rgb Le" [ 1 1 1 ]
+AttributeBegin
+  MediumInterface "glow" ""
+  Material "interface"
+  Translate 0 .4 -.7
+  Shape "sphere" "float radius" .25
+AttributeEnd
 )";
 }
 

@@ -2,10 +2,18 @@
 // defaults and, where it has a roughness, rough. A new plugin is tested without a line here.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "core/base/warp.h"
+#include "core/fibre.h"
+#include "core/image/image.h"
 #include "tests/support/chi_square.h"
+#include "tests/support/hits.h"
 #include "tests/support/make_endpoint.h"
+#include "tests/support/measured_files.h"
 #include "tests/support/render_text.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/walk_source.h"
 
 namespace pssmlt::test {
 namespace {
@@ -25,6 +33,11 @@ std::shared_ptr<const Material> default_material(const std::string& name) {
   }
   if (has_parameter("material", name, "materials")) {
     set.push_back(strings(ParameterType::String, "materials", {"a", "b"}));
+  }
+  if (has_parameter("material", name, "filename")) {
+    static const std::string table = own_file("registry-measured");
+    write_bytes(table, merl_file([](const vec3&, const vec3&) { return Rgb(.25f); }));
+    set.push_back(text("filename", table));
   }
   return make_material(name, set, &resolver);
 }
@@ -79,15 +92,23 @@ TEST_P(AnyMaterial, IsReciprocal) {
   }
 }
 
-// Importance is not scaled at boundaries: what leaves is at most what came.
+// Importance is not scaled at boundaries: what leaves is at most what came. A fibre scatters light
+// by its width, which is the same from everywhere, not by the area of the band that stands for it:
+// what is bounded there, for every direction alone, is the sum over the directions that light comes
+// from; for importance only the mean over the band's turns is.
 TEST_P(AnyMaterial, GainsNoEnergy) {
   if (!bsdf_) return;
+  const bool fibre = is_of_fibres(*material_);
+  const Transport mode = fibre ? Transport::radiance : Transport::importance;
   constexpr int samples = 20000;
   RandomStream random(6, RandomUse::test);
+  WalkSource walks(6);
   for (const vec3& wo : views()) {
     double sum = 0.0, squares = 0.0;
     for (int i = 0; i < samples; ++i) {
-      const auto s = draw(random, wo, Transport::importance);
+      // What a material draws at a hit is part of the mean.
+      bsdf_ = material_->bsdf(Hit(), walks.next(), storage_);
+      const auto s = draw(random, wo, mode);
       const double w = s ? static_cast<double>(max_component(s->weight)) : 0.0;
       sum += w;
       squares += w * w;
@@ -100,11 +121,41 @@ TEST_P(AnyMaterial, GainsNoEnergy) {
 
 INSTANTIATE_TEST_SUITE_P(All, AnyMaterial, testing::ValuesIn(names("material")), by_name);
 
-class AnyLight : public testing::TestWithParam<std::string> {
- protected:
-  AnyLight() : light_(make_light("LightSource \"" + GetParam() + "\"")) {
-    light_->prepare({vec3(0.f), 4.f});
+// A square image of random pixels, one of them bright, for plugins that show one.
+std::string image_file() {
+  static const std::string path = [] {
+    Image image(4, 4, 3);
+    RandomStream random(11, RandomUse::test);
+    for (float& v : image.data) v = 0.2f + random.next();
+    for (int c = 0; c < 3; ++c) image.pixel(2, 1)[c] *= 10.f;
+    const std::string file = test::own_file("registry-image.pfm");
+    write_image(file, image, {}, {});
+    return file;
+  }();
+  return path;
+}
+
+// Every light as it comes and, if it can show an image, with one; some need it.
+struct LightCase {
+  std::string name, text;
+};
+void PrintTo(const LightCase& c, std::ostream* out) { *out << c.name; }
+
+std::vector<LightCase> light_cases() {
+  std::vector<LightCase> all;
+  for (const std::string& name : names("light")) {
+    const std::string text = "LightSource \"" + name + "\"";
+    const bool shows_images = has_parameter("light", name, "filename");
+    const std::string image = " \"string filename\" \"" + image_file() + "\"";
+    if (shows_images) all.push_back({name + "_image", "Rotate 40 1 2 3 " + text + image});
+    if (!shows_images || error_of([&] { make_light(text); }).empty()) all.push_back({name, text});
   }
+  return all;
+}
+
+class AnyLight : public testing::TestWithParam<LightCase> {
+ protected:
+  AnyLight() : light_(make_light(GetParam().text)) { light_->prepare({vec3(0.f), 4.f}); }
   std::shared_ptr<Light> light_;
 };
 
@@ -133,9 +184,45 @@ TEST_P(AnyLight, SamplesAgreeWithEvaluate) {
   EXPECT_GT(light_->power(), 0.f);
 }
 
+// What the choice among many lights goes by: rays start in the box and leave within the cones, and
+// the intensity is that of the power.
+TEST_P(AnyLight, StaysInItsBounds) {
+  const auto bounds = light_->bounds();
+  EXPECT_NE(bounds.has_value(), light_->traits().infinite);
+  if (!bounds) return;
+  const DirectionCone& cone = bounds->normals;
+  const float reach = std::acos(std::clamp(cone.cosine, -1.f, 1.f)) + std::acos(bounds->cos_spread);
+  RandomStream random(8, RandomUse::test);
+  for (int i = 0; i < 2000; ++i) {
+    const vec2 u = draw2(random);
+    const auto e = light_->emit(u, dvec2(draw2(random)));
+    if (!e) continue;
+    EXPECT_EQ(glm::clamp(e->from.position, bounds->box.min, bounds->box.max), e->from.position);
+    EXPECT_LE(std::acos(std::clamp(glm::dot(e->direction, cone.axis), -1.f, 1.f)), reach + 1e-3f);
+  }
+  EXPECT_GE(bounds->intensity, light_->power() / (4.f * pi) * (1.f - 1e-5f));
+}
+
+// Emitted rays carry the power that the light says. Five sigma of the mean, and rounding.
+TEST_P(AnyLight, RaysCarryThePower) {
+  RandomStream random(12, RandomUse::test);
+  constexpr int rays = 50'000;
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < rays; ++i) {
+    const vec2 u = draw2(random);
+    const auto e = light_->emit(u, dvec2(draw2(random)));
+    const double w = e ? static_cast<double>(luminance(e->weight())) : 0.0;
+    sum += w;
+    squares += w * w;
+  }
+  const double mean = sum / rays;
+  const double error = std::sqrt(std::max(0.0, squares / rays - mean * mean) / rays);
+  EXPECT_NEAR(mean, light_->power(), 5.0 * error + 2e-3 * mean);
+}
+
 TEST_P(AnyLight, DirectionsFollowTheirDensity) {
   if (light_->traits().delta_direction) return;
-  const ChiSquareOptions options{.bins_x = 48, .bins_y = 48, .samples = 100'000, .fine = 24};
+  const ChiSquareOptions options{.bins_x = 48, .bins_y = 48, .samples = 100'000, .fine = 48};
   EndpointPoint at;
   const auto result = chi_square_sphere(
       [&](RandomStream& random) -> std::optional<vec3> {
@@ -152,32 +239,95 @@ TEST_P(AnyLight, DirectionsFollowTheirDensity) {
   EXPECT_NEAR(result.integral + result.failures, 1.0, 2e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, AnyLight, testing::ValuesIn(names("light")), by_name);
+INSTANTIATE_TEST_SUITE_P(All, AnyLight, testing::ValuesIn(light_cases()),
+                         [](const auto& test) { return test.param.name; });
+
+// The camera with its defaults; one that needs a lens system gets a single lens.
+std::shared_ptr<Camera> default_camera(const std::string& name, const RasterFrame& frame) {
+  std::string text = "Camera \"" + name + "\"";
+  if (has_parameter("camera", name, "lensfile")) {
+    const std::string file = own_file("registry-lens.dat");
+    std::ofstream(file) << "60 8 1.6 30\n-90 3 1 30\n0 60 0 30\n";
+    text += " \"string lensfile\" \"" + file + "\"";
+  }
+  return make_camera(text, frame);
+}
 
 class AnyCamera : public testing::TestWithParam<std::string> {};
 
-// A ray through a raster position comes back to it; the picture measures one, so that the density
-// of rays is importance.
+// A ray through a raster position comes back to it with its densities; of cameras that measure
+// radiance the picture measures one, so that the density of rays is importance.
 TEST_P(AnyCamera, ConnectionsReturnToTheRaster) {
   const RasterFrame frame{{64, 48}, {8, 4}, {56, 44}, {0.f, 0.f}};
-  const auto camera = make_camera("Camera \"" + GetParam() + "\"", frame);
+  const auto camera = default_camera(GetParam(), frame);
+  const bool one_way = camera->traits().delta_position || camera->traits().delta_direction;
   RandomStream random(8, RandomUse::test);
+  int emitted = 0;
   for (int i = 0; i < 2000; ++i) {
     const vec2 lens = draw2(random);
     const dvec2 raster = dvec2(frame.crop_min) + dvec2(draw2(random)) * dvec2(frame.crop_size());
     const auto e = camera->emit(lens, raster);
-    ASSERT_TRUE(e);
-    EXPECT_NEAR(e->weight().x, 1.f, 1e-3f);
+    if (!e) continue;
+    ++emitted;
+    if (!camera->measures_irradiance()) {
+      EXPECT_NEAR(e->weight().x, 1.f, 1e-3f);
+    }
+    EXPECT_GT(e->weight().x, 0.f);
+    const EmissionValue v = camera->evaluate(e->from, e->direction);
+    EXPECT_NEAR(v.pdf_position * v.pdf_direction / (e->pdf_position * e->pdf_direction), 1.f,
+                2e-3f);
     const vec3 point = e->from.position + 3.f * e->direction;
+    EXPECT_GT(camera->pdf_toward(point, e->from), 0.f);
+    if (camera->bare() && camera->traits().delta_position) continue;  // all over the picture
+    const auto back = camera->raster(e->from.position, e->direction);
+    ASSERT_TRUE(back) << raster.x << " " << raster.y;
+    EXPECT_LT(glm::distance(*back, raster), 1.5e-2);
+    if (!one_way) continue;
     const auto t = camera->toward(point, lens);
     ASSERT_TRUE(t) << raster.x << " " << raster.y;
-    EXPECT_NEAR(t->raster.x, raster.x, 1e-2);
-    EXPECT_NEAR(t->raster.y, raster.y, 1e-2);
+    EXPECT_LT(glm::distance(t->raster, raster), 1.5e-2);
     EXPECT_NEAR(t->pdf_direction / e->pdf_direction, 1.f, 2e-3f);
   }
+  // Some rays do not get through a lens system.
+  EXPECT_GE(emitted, camera->measures_irradiance() ? 1000 : 2000);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, AnyCamera, testing::ValuesIn(names("camera")), by_name);
+
+class AnyTexture : public testing::TestWithParam<std::string> {};
+
+// Values are valid near and far, and the same however a point was found: its place and how wide a
+// pixel is there decide, the ray that met it does not.
+template <typename T>
+void expect_function_of_the_point(const std::string& name) {
+  const auto texture = make_texture<T>(name);
+  RandomStream random(10, RandomUse::test);
+  for (int i = 0; i < 2000; ++i) {
+    const float size = std::exp2(static_cast<float>(i % 30));
+    Hit hit = at_point(size * uniform_sphere(draw2(random)));
+    hit.uv = size * (2.f * draw2(random) - 1.f);
+    hit.ng = hit.ns = uniform_sphere(draw2(random));
+    hit.footprint = i % 3 == 0 ? 0.f : std::exp2(-static_cast<float>(i % 17));
+    const Rgb value(texture->evaluate(hit));
+    ASSERT_TRUE(is_finite(value)) << i;
+    hit.distance = 3.f * size;
+    hit.error = vec3(1e-3f);
+    ASSERT_EQ(Rgb(texture->evaluate(hit)), value) << i;
+    if (texture->constant()) {
+      ASSERT_EQ(Rgb(texture->evaluate(Hit())), value);
+    }
+  }
+}
+
+TEST_P(AnyTexture, IsAFunctionOfThePoint) {
+  if (has_parameter("texture", GetParam(), "filename")) return;  // nothing to show without one
+  const PluginDescriptor& d = *Registry::instance().find("texture", GetParam(), {}).descriptor;
+  ASSERT_TRUE(d.create || d.create_rgb);
+  if (d.create) expect_function_of_the_point<float>(GetParam());
+  if (d.create_rgb) expect_function_of_the_point<Rgb>(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AnyTexture, testing::ValuesIn(names("texture")), by_name);
 
 class AnyFilter : public testing::TestWithParam<std::string> {};
 

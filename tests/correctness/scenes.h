@@ -1,35 +1,17 @@
-// Small scenes, given as text, on which techniques must agree. Together they have every kind of
-// light, at least three lights each, textures, rough and smooth glass, mirrors, depth of field,
-// cut-outs, instances, shading normals, both cameras, and crops that are not square.
+// Small scenes, given as text, on which techniques must agree. Together they have area,
+// point, spot, distant and infinite lights, at least three each, textures, rough and smooth glass,
+// mirrors, depth of field, cut-outs, instances, shading normals, cameras with and without
+// perspective, and crops that are not square. endpoint_agreement_test.cpp has the other lights and
+// cameras.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "tests/correctness/scenes_layered.h"
+#include "tests/correctness/scenes_media.h"
+
 namespace pssmlt::test {
-
-struct AgreementScene {
-  const char* name;
-  std::string text;
-};
-
-// A room 2 x 2 x 2 without a front wall; checkered floor. Uses the materials in force.
-inline const char* const room = R"(
-AttributeBegin
-  Texture "checks" "spectrum" "checkerboard" "float uscale" 4 "float vscale" 4
-    "rgb tex1" [ .7 .6 .2 ] "rgb tex2" [ .15 .2 .4 ]
-  Material "diffuse" "texture reflectance" "checks"
-  Shape "bilinearmesh" "point3 P" [ -1 0 1  1 0 1  -1 0 -1  1 0 -1 ]
-    "point2 uv" [ 0 0  1 0  0 1  1 1 ]
-  Material "diffuse" "rgb reflectance" [ .6 .6 .6 ]
-  Shape "bilinearmesh" "point3 P" [ -1 0 1  1 0 1  -1 2 1  1 2 1 ]
-  Shape "bilinearmesh" "point3 P" [ -1 2 1  1 2 1  -1 2 -1  1 2 -1 ]
-  Material "diffuse" "rgb reflectance" [ .6 .2 .1 ]
-  Shape "bilinearmesh" "point3 P" [ -1 0 1  -1 0 -1  -1 2 1  -1 2 -1 ]
-  Material "diffuse" "rgb reflectance" [ .1 .5 .2 ]
-  Shape "bilinearmesh" "point3 P" [ 1 0 1  1 0 -1  1 2 1  1 2 -1 ]
-AttributeEnd
-)";
 
 inline AgreementScene lens_scene() {
   return {"lens", std::string(R"(
@@ -38,9 +20,7 @@ Film "rgb" "integer xresolution" 64 "integer yresolution" 40
 PixelFilter "box"
 LookAt 0 1 -3.6  0 1 0  0 1 0
 Camera "perspective" "float fov" 36 "float lensradius" .12 "float focaldistance" 3.2
-Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
-  "float filmprobability" 0.1 "float streamprobability" 0.2
-  "float largestepprobability" .5
+)" + chains(".5") + R"(
 Integrator "path" "integer maxdepth" 4
 WorldBegin
 )") + room + R"(
@@ -72,9 +52,7 @@ Film "rgb" "integer xresolution" 32 "integer yresolution" 32
 PixelFilter "triangle" "float xradius" 1.5 "float yradius" 1.5
 LookAt 0 3.2 -2.6  0 .2 0  0 1 0
 Camera "perspective" "float fov" 38
-Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
-  "float filmprobability" 0.1 "float streamprobability" 0.2
-  "float largestepprobability" .8
+)" + chains(".8") + R"(
 Integrator "path" "integer maxdepth" 4
 WorldBegin
 LightSource "infinite" "rgb L" [ .15 .18 .24 ]
@@ -88,7 +66,7 @@ AttributeBegin
 AttributeEnd
 AttributeBegin
   Translate -.7 .6 0
-  Material "dielectric" "float eta" 1.5
+  Material "dielectric" "spectrum eta" [ 400 1.8  700 1.4 ]
   Shape "sphere" "float radius" .55
 AttributeEnd
 AttributeBegin
@@ -111,9 +89,7 @@ Film "rgb" "integer xresolution" 32 "integer yresolution" 48
 PixelFilter "mitchell"
 LookAt 0 1.6 -4  0 .6 0  0 1 0
 Camera "perspective" "float fov" 34
-Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
-  "float filmprobability" 0.1 "float streamprobability" 0.2
-  "float largestepprobability" .8
+)" + chains(".8") + R"(
 Integrator "path" "integer maxdepth" 4
 WorldBegin
 LightSource "infinite" "rgb L" [ .12 .13 .14 ]
@@ -164,9 +140,7 @@ Film "rgb" "integer xresolution" 48 "integer yresolution" 40
 PixelFilter "box"
 LookAt .3 1.2 -3  0 .9 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -1.2 1.2 -1 1 ]
-Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
-  "float filmprobability" 0.1 "float streamprobability" 0.2
-  "float largestepprobability" .5
+)" + chains(".5") + R"(
 Integrator "path" "integer maxdepth" 4
 WorldBegin
 )") + room + R"(
@@ -197,9 +171,7 @@ Film "rgb" "integer xresolution" 32 "integer yresolution" 32
 PixelFilter "gaussian"
 LookAt 0 1 -3.4  0 .9 0  0 1 0
 Camera "perspective" "float fov" 36 "float lensradius" .05 "float focaldistance" 3.4
-Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
-  "float filmprobability" 0.1 "float streamprobability" 0.2
-  "float largestepprobability" .5
+)" + chains(".5") + R"(
 Integrator "path" "integer maxdepth" 4
 WorldBegin
 )") + room + R"(
@@ -239,9 +211,7 @@ Film "rgb" "integer xresolution" 72 "integer yresolution" 56
 PixelFilter "sinc" "float xradius" 2 "float yradius" 2
 LookAt 0 1 -2.9  .1 1 0  0 1 0
 Camera "perspective" "float fov" 45
-Sampler "pssmlt" "integer bootstrapsamples" 8192 "integer chains" 64
-  "float filmprobability" 0.1 "float streamprobability" 0.2
-  "float largestepprobability" .5
+)" + chains(".5") + R"(
 Integrator "path" "integer maxdepth" 5
 WorldBegin
 )") + room + R"(
@@ -272,9 +242,54 @@ AttributeEnd
 )"};
 }
 
+// More lights than are drawn by power: a hierarchy, and others beside it; received by surfaces that
+// reflect, by ones that transmit, and inside a medium.
+inline AgreementScene lamps_scene() {
+  std::string lamps;
+  for (int i = 0; i < 6; ++i) {
+    lamps += "AttributeBegin Translate " + std::to_string(0.3 * i - 0.75) + " " +
+             std::to_string(0.3 + 0.28 * (i * 2 % 5)) + " .97 Rotate 180 0 1 0\n" +
+             "AreaLightSource \"diffuse\" \"rgb L\" [ " + std::to_string(2 + i) + " 6 " +
+             std::to_string(9 - i) + " ]\nShape \"disk\" \"float radius\" .09\nAttributeEnd\n";
+  }
+  return {"lamps", std::string(R"(
+Film "rgb" "integer xresolution" 48 "integer yresolution" 32
+PixelFilter "box"
+LookAt 0 1 -3.4  0 .9 0  0 1 0
+Camera "perspective" "float fov" 40
+)" + chains(".5") + R"(
+Integrator "path" "integer maxdepth" 4
+WorldBegin
+)") + room + lamps + R"(
+LightSource "infinite" "rgb L" [ .1 .12 .15 ]
+LightSource "distant" "rgb L" [ .3 .3 .2 ] "point3 from" [ .3 .6 -2 ] "point3 to" [ 0 0 0 ]
+LightSource "point" "rgb I" [ .2 .3 .6 ] "point3 from" [ -.6 1.5 -.6 ]
+LightSource "spot" "rgb I" [ 3 2 2 ] "point3 from" [ .8 1.6 -.8 ] "point3 to" [ -.2 0 .3 ]
+  "float coneangle" 35 "float conedeltaangle" 12
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 1 2 1 ] "bool twosided" true
+  Shape "bilinearmesh" "point3 P" [ -.9 .5 .2  -.6 .5 .0  -.9 .9 .2  -.6 .9 .1 ]
+AttributeEnd
+AttributeBegin
+  Translate .5 .4 .2
+  Material "dielectric" "float eta" 1.4 "float roughness" .4 "bool remaproughness" false
+  Shape "sphere" "float radius" .35
+AttributeEnd
+AttributeBegin
+  MakeNamedMedium "milk" "string type" "homogeneous" "rgb sigma_a" [ .2 .1 .05 ]
+    "rgb sigma_s" [ 1 2 3 ] "float g" -.2
+  MediumInterface "milk" ""
+  Material "interface"
+  Translate -.25 .4 -.2
+  Shape "sphere" "float radius" .35
+AttributeEnd
+)"};
+}
+
 inline std::vector<AgreementScene> agreement_scenes() {
-  return {lens_scene(),     glass_scene(),   rough_scene(),
-          parallel_scene(), normals_scene(), window_scene()};
+  return {lens_scene(),    glass_scene(),  rough_scene(),   parallel_scene(),
+          normals_scene(), window_scene(), layered_scene(), fog_scene(),
+          cloud_scene(),   moving_scene(), lamps_scene()};
 }
 
 }  // namespace pssmlt::test

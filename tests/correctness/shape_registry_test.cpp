@@ -104,6 +104,24 @@ TEST_P(AnyShape, FacesWhatItSays) {
   EXPECT_GT(behind, triangle ? 700 : -1);
 }
 
+// What the choice among many lights goes by: sampled points are in the box, their normals in the
+// cone, to the rounding of both.
+TEST_P(AnyShape, StaysInItsBounds) {
+  const auto shape = default_shape(GetParam());
+  ASSERT_NE(shape, nullptr);
+  const Bounds box = shape->bounds();
+  const DirectionCone cone = shape->normals();
+  RandomStream random(13, RandomUse::test);
+  for (int i = 0; i < 2000; ++i) {
+    const SurfaceSample s = shape->sample_area(draw2(random));
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_GE(s.position[k], box.min[k] - 1e-5f);
+      EXPECT_LE(s.position[k], box.max[k] + 1e-5f);
+    }
+    EXPECT_GE(glm::dot(s.normal, cone.axis), cone.cosine - 1e-4f);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, AnyShape, testing::ValuesIn(Registry::instance().names("shape")),
                          [](const auto& test) { return test.param; });
 

@@ -21,22 +21,26 @@ const std::array<const char*, 10> plugin_folders = {
     "lights",      "arealights", "cameras",   "filters",  "media"};
 // Words that are the name of a plugin and of something else, where core means that.
 struct OtherMeaning {
-  const char *word, *folder, *meaning;
+  const char *word, *place, *meaning;  // place: a folder or a file
 };
-const std::array<OtherMeaning, 8> other_meanings = {
+const std::array<OtherMeaning, 11> other_meanings = {
     {{"light", "core/scene", "a kind of plugin and a target of Attribute"},
      {"light", "core/metropolis", "a stream of primary samples"},
      {"light", "core/render", "the same stream"},
      {"point", "core/scene", "a parameter type of the text format"},
      {"infinite", "core/sampling", "why a sample was dropped"},
      {"gaussian", "core/metropolis", "a mutation kernel"},
+     {"gaussian", "core/lens/aperture.cpp", "how a stop lets light through"},
+     {"spherical", "core/texture_mapping.cpp", "how textures find their coordinates"},
+     {"scale", "core/media", "a factor, a parameter of media"},
      {"pssmlt", "core/plugin", "the folder of installed plugins"},
      {"pssmlt", "core/base", "the program, in log lines"}}};
 
 bool means_something_else(const std::string& word, const fs::path& file) {
   const std::string where = fs::relative(file, root).string();
   return std::ranges::any_of(other_meanings, [&](const OtherMeaning& other) {
-    return word == other.word && where.starts_with(std::string(other.folder) + "/");
+    return word == other.word &&
+           (where == other.place || where.starts_with(std::string(other.place) + "/"));
   });
 }
 

@@ -1,6 +1,7 @@
 // Lights: parameters, magnitudes and errors.
 #include <gtest/gtest.h>
 
+#include "core/base/lat_long.h"
 #include "core/base/warp.h"
 #include "core/image/image.h"
 #include "tests/support/make_endpoint.h"
@@ -76,6 +77,67 @@ TEST(SpotLight, FalloffAndPower) {
             std::string::npos);
 }
 
+// The image's z axis is the light's y axis; red, green and blue count alike.
+TEST(GoniometricLight, AxesAndPower) {
+  Image image(2, 2, 3);  // texels are octants' pairs: (x < 0 | x > 0) by (z < 0 | z > 0)
+  for (int i = 0; i < 12; ++i) image.data[static_cast<size_t>(i)] = static_cast<float>(i / 3 + 1);
+  image.data[0] = 3.f;  // with 1 and 1: mean 5/3
+  const std::string goniometric = "LightSource \"goniometric\" ";
+  const std::string shown =
+      goniometric + "\"string filename\" \"" + write("pssmlt-gonio.pfm", image) + "\" ";
+  const auto light = make_light("Translate 1 2 3 " + shown + "\"rgb I\" [2 4 6]");
+  const vec3 at(1.f, 2.f, 3.f);
+  for (const float y : {-0.5f, 0.5f}) {
+    EXPECT_LT(
+        glm::distance(toward(*light, at + vec3(-1.f, y, -1.f)), Rgb(2.f, 4.f, 6.f) * 5.f / 3.f),
+        1e-5f);
+    EXPECT_EQ(toward(*light, at + vec3(1.f, y, -1.f)), Rgb(4.f, 8.f, 12.f));
+    EXPECT_EQ(toward(*light, at + vec3(-1.f, y, 1.f)), Rgb(6.f, 12.f, 18.f));
+    EXPECT_EQ(toward(*light, at + vec3(1.f, y, 1.f)), Rgb(8.f, 16.f, 24.f));
+  }
+  const auto powered = make_light(shown + "\"float power\" 60");
+  EXPECT_NEAR(powered->power(), 60.f, 1e-4f);
+  EXPECT_NEAR(emitted_power(*powered), 60.0, 1e-2);
+  EXPECT_EQ(toward(*make_light(goniometric + "\"rgb I\" [1 2 4]"), {1.f, 2.f, 0.f}),
+            Rgb(1.f, 2.f, 4.f));
+  const std::string wide = "\"string filename\" \"" + write("pssmlt-wide.pfm", Image(4, 2, 3));
+  EXPECT_NE(message(goniometric + wide + "\"").find("square"), std::string::npos);
+  EXPECT_NE(message(goniometric + "\"float scale\" -1").find("scale"), std::string::npos);
+}
+
+// Upright, unmirrored, with the angle of view along the shorter side.
+TEST(ProjectionLight, ImageAndPower) {
+  const std::string projection = "LightSource \"projection\" ";
+  const auto show = [&](const Image& image) {
+    return projection + "\"string filename\" \"" + write("pssmlt-slide.pfm", image) + "\" ";
+  };
+  Image wide(2, 1, 3), high(1, 2, 3);
+  wide.data = {1.f, 0.f, 0.f, 0.f, 0.f, 2.f};
+  high.data = {0.f, 3.f, 0.f, 4.f, 0.f, 0.f};
+  const auto slide = make_light(show(wide) + "\"float scale\" 2");
+  EXPECT_EQ(toward(*slide, {-1.f, 0.f, 1.f}), Rgb(2.f, 0.f, 0.f));
+  EXPECT_EQ(toward(*slide, {1.98f, -0.98f, 1.f}), Rgb(0.f, 0.f, 4.f));
+  EXPECT_EQ(toward(*slide, {2.02f, 0.f, 1.f}), Rgb(0.f));
+  EXPECT_EQ(toward(*slide, {0.f, 1.02f, 1.f}), Rgb(0.f));
+  EXPECT_EQ(toward(*slide, {0.f, 0.f, -1.f}), Rgb(0.f));
+  const auto upright = make_light(show(high));
+  EXPECT_EQ(toward(*upright, {0.f, 1.9f, 1.f}), Rgb(0.f, 3.f, 0.f));
+  EXPECT_EQ(toward(*upright, {0.f, -1.9f, 1.f}), Rgb(4.f, 0.f, 0.f));
+  const auto narrow = make_light(show(high) + "\"float fov\" 53.1301");  // half as wide
+  EXPECT_EQ(toward(*narrow, {0.f, 0.98f, 1.f}), Rgb(0.f, 3.f, 0.f));
+  EXPECT_EQ(toward(*narrow, {0.f, 1.02f, 1.f}), Rgb(0.f));
+  // White through one face of a cube.
+  Image white(3, 3, 3);
+  for (float& v : white.data) v = 1.f;
+  EXPECT_NEAR(make_light(show(white))->power(), 2.f * pi / 3.f, 1e-5f);
+  const auto powered = make_light(show(wide) + "\"float power\" 60");
+  EXPECT_NEAR(powered->power(), 60.f, 1e-4f);
+  EXPECT_NEAR(emitted_power(*powered), 60.0, 0.2);
+  EXPECT_NE(message(projection).find("filename is needed"), std::string::npos);
+  EXPECT_NE(message(show(wide) + "\"float fov\" 180").find("fov"), std::string::npos);
+  EXPECT_NE(message(show(Image(2, 2, 3)) + "\"float power\" 1").find("black"), std::string::npos);
+}
+
 TEST(DistantLight, Illuminance) {
   const auto light = make_light(
       "LightSource \"distant\" \"point3 from\" [0 5 0] \"point3 to\" [0 0 0]"
@@ -140,8 +202,6 @@ TEST(InfiniteLight, ImageAxesAndErrors) {
       make_light("Rotate 180 0 0 1 " + text)->background(glm::normalize(vec3(1.f, 1.f, 0.3f))),
       Rgb(2.f));
   EXPECT_NE(message(text + " \"rgb L\" [1 1 1]").find("together"), std::string::npos);
-  EXPECT_NE(message("LightSource \"infinite\" \"point3 portal\" [0 0 0]").find("not supported yet"),
-            std::string::npos);
   const std::string wide = write("pssmlt-wide.pfm", Image(4, 2, 3));
   EXPECT_NE(message("LightSource \"infinite\" \"string filename\" \"" + wide + "\"").find("square"),
             std::string::npos);
@@ -150,6 +210,46 @@ TEST(InfiniteLight, ImageAxesAndErrors) {
 }
 
 // Every direction is found where its texel is: the map and its inverse agree at texel centres.
+// Rows are latitudes from +z down, columns longitudes from +x to +y.
+TEST(InfiniteLight, LongitudeAndLatitude) {
+  Image image(4, 2, 3);
+  for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = 1.f + static_cast<float>(i / 3);
+  const std::string sky = "LightSource \"infinite\" \"string mapping\" \"equirectangular\"";
+  const std::string file =
+      " \"string filename\" \"" + write("pssmlt-longitudes-test.pfm", image) + "\"";
+  const auto light = make_light(sky + file);
+  const auto value = [&](const vec3& d) { return light->background(glm::normalize(d)).x; };
+  EXPECT_EQ(value({1.f, .5f, .5f}), 1.f);
+  EXPECT_EQ(value({-.5f, 1.f, .5f}), 2.f);
+  EXPECT_EQ(value({.5f, -1.f, .5f}), 4.f);
+  EXPECT_EQ(value({.5f, -1.f, -.5f}), 8.f);
+  // A row of the horizon covers what it covers: the sine of its latitudes.
+  light->prepare({vec3(0.f), 1.f});
+  EXPECT_NEAR(light->power(), 4.f * pi * pi * 4.5f, 1e-3f);
+  // The true illuminance: no half pixels, which belong to equal-area maps.
+  const auto lit = make_light(sky + file + " \"float illuminance\" 5");
+  lit->prepare({vec3(0.f), 1.f});
+  EXPECT_NEAR(lit->background({0.f, 0.f, 1.f}).x / light->background({0.f, 0.f, 1.f}).x,
+              5.f / (pi * 2.5f), 2e-2f);
+}
+
+// What LatLong says of directions and of its own density.
+TEST(InfiniteLight, LongitudesAndInverseAgree) {
+  const LatLong map(7);
+  RandomStream random(3, RandomUse::test);
+  double covered = 0.0;
+  constexpr int n = 20'000;
+  for (int i = 0; i < n; ++i) {
+    const vec2 u = draw2(random);
+    const dvec2 uv(u);
+    const dvec2 back = map.square(map.direction(uv));
+    EXPECT_NEAR(back.x, uv.x, 1e-9);
+    EXPECT_NEAR(back.y, uv.y, 1e-6);
+    covered += map.weight_at(uv.y) * (map.direction(uv).z > 0.5 ? 1.0 : 0.0);
+  }
+  EXPECT_NEAR(covered / n, 0.25, 0.02);  // a cap of a quarter of the sphere
+}
+
 TEST(InfiniteLight, MapAndInverseAgree) {
   constexpr int size = 64;
   Image image(size, size, 3);
@@ -206,6 +306,16 @@ TEST(AreaLight, CutOutsWeightChosenPoints) {
   EXPECT_EQ(light->evaluate({{1.f, 0.f, 0.f}, {1.f, 0.f, 0.f}, {}, 0}, {1.f, 0.f, 0.f}).value,
             Rgb(1.f));
   EXPECT_NEAR(emitted_power(*light), 0.25 * light->power(), 1e-3);
+}
+
+// Cut out everywhere, the shape is not seen but emits in full.
+TEST(AreaLight, AllCutOutIsHidden) {
+  const auto light =
+      make_light("AreaLightSource \"diffuse\" Shape \"sphere\"", constant_texture(0.f));
+  EXPECT_EQ(toward(*light, {3.f, 0.f, 0.f}), Rgb(1.f));
+  EXPECT_FALSE(light->traits().hittable());
+  EXPECT_NEAR(emitted_power(*light), light->power(), 1e-3 * light->power());
+  EXPECT_TRUE(make_light("AreaLightSource \"diffuse\" Shape \"sphere\"")->traits().hittable());
 }
 
 }  // namespace

@@ -5,7 +5,11 @@
 #include "core/color/fresnel.h"
 #include "core/color/fresnel_rgb.h"
 #include "core/color/named_spectra.h"
+#include "core/image/image.h"
+#include "core/path/dispersion.h"
 #include "tests/support/make_plugin.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/walk_source.h"
 
 namespace pssmlt {
 namespace {
@@ -174,11 +178,33 @@ TEST(Dielectric, WithoutContrastNothingHappens) {
   }
 }
 
-TEST(Dielectric, NamedGlassIsTakenAtTheDLine) {
+TEST(Dielectric, NamedGlassDispersesByThePathsWavelength) {
   Made named("dielectric", {strings(ParameterType::Spectrum, "eta", {"glass-BK7"})});
+  EXPECT_TRUE(named.material->traits().disperses);
+  EXPECT_FALSE(Made("dielectric").material->traits().disperses);
+  // Without a path the d line; Schott's data sheet: n_d = 1.51680, n_C = 1.51432 (656.3 nm),
+  // n_F = 1.52238 (486.1 nm).
   const auto s = named.at()->sample(slanted, 0.99f, {}, Transport::radiance);
-  EXPECT_NEAR(s->eta, 1.5168f, 2e-3f);  // Schott's data sheet: n_d = 1.51680
+  EXPECT_NEAR(s->eta, 1.5168f, 2e-3f);
+  WalkSource source(3);
+  for (int i = 0; i < 100; ++i) {
+    const MaterialNumbers u = source.next();
+    const float nanometres = path_wavelength(*u.sample).nanometres;
+    const auto refracted = named.at(u)->sample(slanted, 0.99f, {}, Transport::radiance);
+    const float t = (nanometres - 486.1f) / (656.3f - 486.1f);
+    if (t > 0.f && t < 1.f) {
+      EXPECT_GT(refracted->eta, 1.51432f - 2e-4f);
+      EXPECT_LT(refracted->eta, 1.52238f + 2e-4f);
+    } else {
+      EXPECT_EQ(refracted->eta > 1.519f, t < 0.f);
+    }
+  }
   EXPECT_NE(error_of([] { make_material("dielectric", {number("eta", 0.f)}); }), "");
+}
+
+TEST(ThinDielectric, NamedGlassIsTakenAtTheDLine) {
+  Made named("thindielectric", {strings(ParameterType::Spectrum, "eta", {"glass-BK7"})});
+  EXPECT_FALSE(named.material->traits().disperses);
 }
 
 TEST(ThinDielectric, SeriesOfReflectionsAndStraightThrough) {
@@ -202,6 +228,8 @@ TEST(Mix, ChoosesByItsShareAndPassesUniformNumbersOn) {
   const ParameterSet half = {strings(ParameterType::String, "materials", {"white", "grey"}),
                              number("amount", 0.25f)};
   resolver.materials["half"] = make_material("mix", half, &resolver);
+  // Without this scenes do not read the numbers, and the choice is always the same.
+  EXPECT_TRUE(resolver.materials["half"]->traits().draws_numbers);
   const ParameterSet nested = {strings(ParameterType::String, "materials", {"half", "grey"})};
   Made outer("mix", nested, &resolver);
   int white = 0;
@@ -231,12 +259,20 @@ TEST(Mix, RefusesWhatItCannotDo) {
 }
 
 TEST(Materials, DisplacementAndNormalMap) {
-  for (const char* type : {"diffuse", "conductor", "dielectric", "thindielectric"}) {
-    EXPECT_EQ(make_material(type)->displacement(), nullptr);
-    EXPECT_NE(make_material(type, {number("displacement", 0.1f)})->displacement(), nullptr);
-    const std::string error = error_of([&] { make_material(type, {text("normalmap", "n.png")}); });
-    EXPECT_NE(error.find("not supported yet"), std::string::npos) << type;
+  const std::string map = test::own_file("normals.pfm");
+  write_image(map, Image(2, 2, 3), {}, {});
+  const auto fails = [](const char* type, const ParameterSet& set, const char* word) {
+    const std::string error = error_of([&] { make_material(type, set); });
+    EXPECT_NE(error.find(word), std::string::npos) << type << ": " << error;
     EXPECT_NE(error.find("test-scene:7:3"), std::string::npos) << type;
+  };
+  for (const char* type :
+       {"diffuse", "diffusetransmission", "conductor", "dielectric", "thindielectric"}) {
+    EXPECT_EQ(make_material(type)->shading_normals(), nullptr);
+    EXPECT_NE(make_material(type, {number("displacement", 0.1f)})->shading_normals(), nullptr);
+    EXPECT_NE(make_material(type, {text("normalmap", map)})->shading_normals(), nullptr);
+    fails(type, {text("normalmap", "missing.png")}, "missing.png");
+    fails(type, {number("displacement", 0.1f), text("normalmap", map)}, "together");
   }
   EXPECT_TRUE(make_material("interface")->traits().passes_through);
 }

@@ -2,11 +2,14 @@
 // shape states of them, and the surface is the one that rays meet.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
+#include "core/image/image.h"
 #include "tests/support/all_hits.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/make_endpoint.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pssmlt {
 namespace {
@@ -15,7 +18,7 @@ using namespace test;
 
 struct Case {
   const char* name;
-  const char* text;
+  std::string text;
   vec3 reference;
   double area;      // closed form [m^2]; 0: not known
   int patches = 1;  // of shapes that are no meshes; 0: do not map them to their parameters
@@ -25,6 +28,19 @@ constexpr double pi_d = std::numbers::pi;
 constexpr const char* house =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 0 1 4 1 2 4]"
     "\"point3 P\" [-1 -1 0  1 -1 0  1 1 0  -1 1 0  0 0 1.5]";
+
+// A black texel, dim ones and a bright one.
+std::string emission_file() {
+  static const std::string path = [] {
+    Image image(4, 3, 3);
+    std::ranges::fill(image.data, .1f);
+    for (int c = 0; c < 3; ++c) image.pixel(3, 0)[c] = 2.f, image.pixel(0, 2)[c] = 0.f;
+    const std::string file = own_file("sampling-emission.pfm");
+    write_image(file, image, {}, {});
+    return file;
+  }();
+  return path;
+}
 
 std::vector<Case> cases() {
   return {
@@ -87,6 +103,14 @@ std::vector<Case> cases() {
       {"Patches",
        "Shape \"bilinearmesh\" \"integer indices\" [0 1 2 3 1 4 3 5]"
        "\"point3 P\" [0 0 0 1 0 0.5 0 1 0.5 1 1 0 2 0 0 2 1 0.7]",
+       {1.f, -1.f, 2.f},
+       0,
+       2},
+      {"PatchesByEmission",
+       "Shape \"bilinearmesh\" \"integer indices\" [0 1 2 3 1 4 3 5]"
+       "\"point3 P\" [0 0 0 1 0 0.5 0 1 0.5 1 1 0 2 0 0 2 1 0.7]"
+       "\"string emissionfilename\" \"" +
+           emission_file() + "\"",
        {1.f, -1.f, 2.f},
        0,
        2}};

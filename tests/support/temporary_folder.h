@@ -33,4 +33,10 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// The path of a file that no other process uses, though it runs the same tests; gone at exit.
+inline std::string own_file(const std::string& name) {
+  static const TemporaryFolder folder;
+  return (folder.path() / name).string();
+}
+
 }  // namespace pssmlt::test

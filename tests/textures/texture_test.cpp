@@ -5,29 +5,17 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/base/equal_area.h"
 #include "core/image/encoding.h"
 #include "core/image/image.h"
 #include "core/texture_mapping.h"
+#include "tests/support/hits.h"
 #include "tests/support/make_plugin.h"
 
 namespace pssmlt {
 namespace {
 namespace fs = std::filesystem;
 using namespace test;
-
-Hit at_uv(float u, float v) {
-  Hit hit;
-  hit.uv = {u, v};
-  hit.ng = {0.f, 0.f, 1.f};
-  hit.dpdu = {1.f, 0.f, 0.f};
-  hit.dpdv = {0.f, 1.f, 0.f};
-  return hit;
-}
-Hit at_point(const vec3& p) {
-  Hit hit = at_uv(0.f, 0.f);
-  hit.position = p;
-  return hit;
-}
 
 TEST(Constant, Values) {
   EXPECT_EQ(make_texture<float>("constant")->evaluate(Hit()), 1.f);
@@ -169,6 +157,36 @@ TEST_F(ImageMapTest, WrapsAndPointFilter) {
   EXPECT_EQ(value("repeat", "point", 1e8f, 1e8f), value("repeat", "point", 0.f, 0.f));
 }
 
+// Beyond an edge of an equal-area map of the sphere it continues turned by half a turn, so that
+// filters see what lies next to each other on the sphere.
+TEST_F(ImageMapTest, OctahedralWrapFollowsTheSphere) {
+  constexpr int size = 16;
+  std::vector<uint8_t> bytes;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const dvec3 d = square_to_sphere({(x + 0.5) / size, (y + 0.5) / size});
+      for (int c = 0; c < 3; ++c) bytes.push_back(static_cast<uint8_t>(127.5 * (d[c] + 1.0)));
+    }
+  const std::string file = ppm("sphere.ppm", size, size, bytes);
+  for (const char* filter : {"point", "bilinear", "trilinear", "ewa"}) {
+    const auto map =
+        make_texture<Rgb>("imagemap", {text("filename", file), text("encoding", "linear"),
+                                       text("filter", filter), text("wrap", "octahedralsphere")});
+    for (int i = 0; i < 64; ++i) {
+      const dvec2 outside(-0.6 + 0.035 * i, 1.7 - 0.037 * i);
+      const dvec2 inside = wrap_to_square(outside);
+      Hit hit = at_uv(static_cast<float>(outside.x), static_cast<float>(1.0 - outside.y));
+      Hit same = at_uv(static_cast<float>(inside.x), static_cast<float>(1.0 - inside.y));
+      hit.footprint = same.footprint = 0.05f;
+      EXPECT_LT(glm::distance(map->evaluate(hit), map->evaluate(same)), 1e-4f) << filter << i;
+      // Bilinear values are near the sphere's own everywhere, across the edges as well.
+      const Rgb expected(0.5 * (square_to_sphere(inside) + 1.0));
+      EXPECT_LT(glm::distance(map->evaluate(hit), expected), 0.2f) << filter << i;
+    }
+    EXPECT_TRUE(is_valid(map->evaluate(at_uv(1e30f, -1e30f))));
+  }
+}
+
 TEST_F(ImageMapTest, EncodingsScaleAndInvert) {
   const std::string grey = ppm("grey.ppm", 1, 1, {128, 128, 128});
   const auto value = [&](ParameterSet set) {
@@ -237,15 +255,18 @@ TEST_F(ImageMapTest, EwaKeepsWhatLiesAcrossALongEllipse) {
     for (int x = 0; x < 64; ++x)
       for (int c = 0; c < 3; ++c) bytes.push_back((x / 8) % 2 == 0 ? 0 : 255);
   const std::string file = ppm("stripes.ppm", 64, 64, bytes);
-  const auto value = [&](const char* filter) {
+  const auto value = [&](const char* filter, float longest = 8.f) {
     Hit hit = at_uv(12.f / 64.f, 0.5f);
     hit.dpdu = {8.f, 0.f, 0.f};
     hit.footprint = 0.25f;  // 2 texels along u, 16 along v
-    return make_texture<float>("imagemap", {text("filename", file), text("filter", filter)})
+    return make_texture<float>("imagemap", {text("filename", file), text("filter", filter),
+                                            number("maxanisotropy", longest)})
         ->evaluate(hit);
   };
   EXPECT_NEAR(value("ewa"), 1.f, 1e-3f);
   EXPECT_LT(value("trilinear"), 0.9f);
+  // Not if it may not be longer than wide.
+  EXPECT_LT(value("ewa", 1.f), 0.9f);
 }
 
 TEST_F(ImageMapTest, RefusalsHaveAPlace) {
@@ -262,7 +283,8 @@ TEST_F(ImageMapTest, RefusalsHaveAPlace) {
                                          {text("filename", good), text("filter", "box")},
                                          {text("filename", good), text("wrap", "mirror")},
                                          {text("filename", good), text("encoding", "rec709")},
-                                         {text("filename", good), text("mapping", "cubic")}};
+                                         {text("filename", good), text("mapping", "cubic")},
+                                         {text("filename", good), number("maxanisotropy", 0.f)}};
   for (const ParameterSet& set : bad)
     EXPECT_NE(error(set).find("test-scene:7:3"), std::string::npos) << error(set);
   EXPECT_NE(error({}).find("filename"), std::string::npos);

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/integrator.h"
-#include "core/path/numbers.h"
+#include "core/path/flight.h"
 #include "core/path/path_expression.h"
 #include "core/path/strategies.h"
 #include "core/path/surface.h"
@@ -45,21 +45,32 @@ class NaivePath final : public Integrator {
 void NaivePath::sample(PrimarySample& u, Splats& out, Workspace&) const {
   const SceneFeatures& features = scene_->features();
   const dvec2 raster = u.raster();
-  const auto start = scene_->camera().emit(lens_numbers(u), raster);
+  const float time = time_number(u, *scene_);
+  const auto start = scene_->camera_emit(lens_numbers(u), raster, time);
   if (!start) return;
 
-  Ray ray{start->from.position, start->direction, infinity};
+  Ray ray = leaving(*start, time);
+  const Medium* medium = scene_->camera_medium();  // where the ray starts
   Rgb throughput = start->weight();
   float eta2 = 1.f;  // what refraction did to the throughput and will undo: not for roulette
   PathExpression::State state = limits_.paths.from_camera();
   for (int bounces = 0; bounces <= limits_.max_bounces; ++bounces) {
     Surface surface;
-    if (!scene_->intersect(ray, alpha_number(u, Stream::camera, bounces, features), surface.hit)) {
+    Flight flight;
+    const EdgeNumbers edge = edge_numbers(u, Stream::camera, bounces, features);
+    const Arrival arrival = fly(*scene_, ray, medium, edge, surface, flight);
+    if (arrival == Arrival::absorbed) return;
+    throughput *= flight.weight();
+    if (arrival == Arrival::nothing) {
       const Rgb sky = scene_->background(ray.direction);
       return add(out, throughput * sky, LightLetter::infinite, state, bounces);
     }
-    const Rgb lamp = scene_->emitted(surface.hit, -ray.direction);
-    add(out, throughput * lamp, LightLetter::area, state, bounces);
+    if (arrival == Arrival::surface) {
+      const Rgb lamp = scene_->emitted(surface.hit, -ray.direction);
+      add(out, throughput * lamp, LightLetter::area, state, bounces);
+    } else {
+      add(out, throughput * surface.point().emission, LightLetter::medium, state, bounces);
+    }
 
     const int vertex = bounces + 1;  // of the camera stream; the camera itself is vertex 0
     const auto material = material_numbers(u, Stream::camera, vertex, features);
@@ -77,6 +88,7 @@ void NaivePath::sample(PrimarySample& u, Splats& out, Workspace&) const {
     }
     state = limits_.paths.camera_step(state, next->delta);
     ray = surface.spawn(next->wi);
+    medium = surface.medium_toward(next->wi);
   }
 }
 

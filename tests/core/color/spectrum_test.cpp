@@ -135,6 +135,35 @@ TEST(NamedSpectra, AllAreUsable) {
   EXPECT_FALSE(named_spectrum("metal-Unobtainium-eta"));
 }
 
+// The names of pbrt-v4's format (https://pbrt.org/fileformat-v4).
+TEST(NamedSpectra, AllOfTheFormatAreThere) {
+  for (const char* metal : {"Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2"})
+    for (const char* part : {"-eta", "-k"})
+      EXPECT_TRUE(named_spectrum(std::string("metal-") + metal + part)) << metal << part;
+  for (const char* glass : {"BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11"})
+    EXPECT_TRUE(named_spectrum(std::string("glass-") + glass)) << glass;
+  for (const char* light : {"A", "D50", "D65", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9",
+                            "F10", "F11", "F12"})
+    EXPECT_TRUE(named_spectrum(std::string("stdillum-") + light)) << light;
+  EXPECT_TRUE(named_spectrum("illum-acesD60"));
+}
+
+// The light of the temperature becomes grey, grey stays as bright as it was to a few per cent.
+TEST(WhiteBalance, TurnsItsLightWhite) {
+  for (const double t : {2000.0, 3500.0, 4500.0, 5503.0, 6504.0, 9000.0, 20000.0}) {
+    const dvec3 light = rec709_from_xyz() * emission_xyz(blackbody_samples(t), Outside::Clamp);
+    const dvec3 seen = white_balance(t) * light;
+    // Daylight is a little greener than a black body of its temperature.
+    const double allowed = t < 4000.0 ? 1e-6 : 0.09;
+    EXPECT_NEAR(seen.x / seen.y, 1.0, allowed) << t;
+    EXPECT_NEAR(seen.z / seen.y, 1.0, allowed) << t;
+  }
+  // CIE D50 by the same formula as its published coordinates (0.34567, 0.35851).
+  const dvec3 d50(0.34567 / 0.35851, 1.0, (1.0 - 0.34567 - 0.35851) / 0.35851);
+  const dvec3 seen = white_balance(5000.0) * rec709_from_xyz() * d50;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 1.0, 2e-3);
+}
+
 TEST(NamedSpectra, GlassesHaveTheirCatalogueIndexAtTheHeliumLine) {
   // n_d at 587.56 nm, Schott catalogue.
   const std::vector<std::pair<const char*, double>> catalogue = {

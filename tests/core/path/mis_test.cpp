@@ -27,6 +27,7 @@ struct RandomPath {
       cos_light.push_back(0.01 + 0.99 * static_cast<double>(u.next()));
       distance2.push_back(any());
       delta.push_back(i > 0 && i + 1 < n && u.next() < 0.3f);
+      pass.push_back(u.next() < 0.5f ? 1.0 : 0.05 + 0.95 * static_cast<double>(u.next()));
     }
     probability = 0.1 + 0.9 * static_cast<double>(u.next());
     light_position = toward_camera[0] * 0.7;
@@ -47,6 +48,7 @@ struct RandomPath {
   std::vector<double> toward_camera, toward_light;
   std::vector<double> cos_camera, cos_light;  // at vertex i, of the edges to i + 1 and to i - 1
   std::vector<double> distance2;              // of the edge from i to i + 1
+  std::vector<double> pass;                   // probability that a walk gets along it through media
   std::vector<bool> delta;
   double light_position = 1.0, lens_position = 1.0;  // of emission
   double light_drawn = 1.0, lens_drawn = 1.0;        // of drawing the endpoint, per solid angle
@@ -71,9 +73,9 @@ double density(const RandomPath& p, int s) {
     } else if (i == 0) {
       product *= p.probability * (p.infinite() ? p.toward_camera[0] : p.light_position);
     } else if (i == 1 && p.infinite()) {
-      product *= p.light_position * p.cos_light[1];
+      product *= p.light_position * p.cos_light[1] * p.pass[0];
     } else {
-      product *= p.toward_camera[k - 1] * p.cos_light[k] / p.distance2[k - 1];
+      product *= p.toward_camera[k - 1] * p.cos_light[k] * p.pass[k - 1] / p.distance2[k - 1];
     }
   }
   const int t = p.n - s;
@@ -84,9 +86,9 @@ double density(const RandomPath& p, int s) {
     } else if (j == 0) {
       product *= p.lens_position;
     } else if (k == 0 && p.infinite()) {
-      product *= p.toward_light[1];
+      product *= p.toward_light[1] * p.pass[0];
     } else {
-      product *= p.toward_light[k + 1] * p.cos_camera[k] / p.distance2[k];
+      product *= p.toward_light[k + 1] * p.cos_camera[k] * p.pass[k] / p.distance2[k];
     }
   }
   return product;
@@ -110,22 +112,25 @@ struct Partials {
     if (p.n > 2) {
       light[1] = mis.first(p.probability * p.light_drawn,
                            p.probability * p.light_position * p.toward_camera[0], p.cos_camera[0],
-                           p.cos_light[1], p.hittable());
+                           p.cos_light[1] * p.pass[0], p.hittable() ? p.pass[0] : 0.0);
     }
     for (size_t i = 2; i < last; ++i) {
       light[i] = mis.next(light[i - 1], p.toward_camera[i - 1], p.toward_light[i - 1],
-                          p.delta[i - 1], p.cos_camera[i - 1], p.cos_light[i], p.distance2[i - 1]);
+                          p.delta[i - 1], p.cos_camera[i - 1] * p.pass[i - 1],
+                          p.cos_light[i] * p.pass[i - 1], p.distance2[i - 1]);
     }
     const bool far = p.infinite();
     if (p.n > 2 || !far) {
-      camera[last - 1] = mis.first(p.lens_drawn, p.lens_position * p.toward_light[last],
-                                   p.cos_light[last], p.cos_camera[last - 1], false);
+      camera[last - 1] =
+          mis.first(p.lens_drawn, p.lens_position * p.toward_light[last], p.cos_light[last],
+                    p.cos_camera[last - 1] * p.pass[last - 1], 0.0);
     }
     for (size_t i = last - 1; i-- > 0;) {
       const bool escapes = i == 0 && far;
-      camera[i] = mis.next(camera[i + 1], p.toward_light[i + 1], p.toward_camera[i + 1],
-                           p.delta[i + 1], p.cos_light[i + 1], escapes ? 1.0 : p.cos_camera[i],
-                           escapes ? 1.0 : p.distance2[i]);
+      camera[i] =
+          mis.next(camera[i + 1], p.toward_light[i + 1], p.toward_camera[i + 1], p.delta[i + 1],
+                   p.cos_light[i + 1] * p.pass[i], (escapes ? 1.0 : p.cos_camera[i]) * p.pass[i],
+                   escapes ? 1.0 : p.distance2[i]);
     }
   }
   std::vector<MisPartial> light, camera;
@@ -144,20 +149,21 @@ double weight_by_recursion(const RandomPath& p, const Partials& q, int s, const 
   }
   if (p.n == 2) {
     const double drawn = p.probability * p.light_position * p.lens_drawn;
-    return Mis::weight(mis.f(lens_emit * p.cos_camera[0] / (drawn * p.cos_light[1])), 0.0);
+    const double met = lens_emit * p.cos_camera[0] * p.pass[0] / (drawn * p.cos_light[1]);
+    return Mis::weight(mis.f(met), 0.0);
   }
   if (s == 1) {
     const double hit =
-        p.hittable() ? mis.f(p.toward_light[1] / (p.probability * p.light_drawn)) : 0.0;
-    const double ratio = emit * p.cos_light[1] / (p.light_drawn * p.cos_camera[0]);
+        p.hittable() ? mis.f(p.toward_light[1] * p.pass[0] / (p.probability * p.light_drawn)) : 0.0;
+    const double ratio = emit * p.cos_light[1] * p.pass[0] / (p.light_drawn * p.cos_camera[0]);
     return Mis::weight(hit, mis.join(q.camera[1], ratio, p.toward_camera[1]));
   }
   if (t == 1) {
-    const double ratio = lens_emit * p.cos_camera[y] / (p.lens_drawn * p.cos_light[x]);
+    const double ratio = lens_emit * p.cos_camera[y] * p.pass[y] / (p.lens_drawn * p.cos_light[x]);
     return Mis::weight(mis.join(q.light[y], ratio, p.toward_light[y]), 0.0);
   }
-  const double at_y = p.toward_light[x] * p.cos_camera[y] / p.distance2[y];
-  const double at_x = p.toward_camera[y] * p.cos_light[x] / p.distance2[y];
+  const double at_y = p.toward_light[x] * p.cos_camera[y] * p.pass[y] / p.distance2[y];
+  const double at_x = p.toward_camera[y] * p.cos_light[x] * p.pass[y] / p.distance2[y];
   return Mis::weight(mis.join(q.light[y], at_y, p.toward_light[y]),
                      mis.join(q.camera[x], at_x, p.toward_camera[x]));
 }
@@ -192,7 +198,7 @@ TEST(Mis, RecursionEqualsDefinition) {
 
 TEST(Mis, StaysFiniteAtExtremes) {
   const Mis mis(Mis::Heuristic::power);
-  MisPartial at = mis.first(1e30, 1e-30, 1.0, 1e-6, true);
+  MisPartial at = mis.first(1e30, 1e-30, 1.0, 1e-6, 1.0);
   for (int i = 0; i < 1000; ++i) at = mis.next(at, 1e-20, 0.0, false, 1.0, 1e-6, 1e20);
   EXPECT_TRUE(std::isfinite(at.connect) && std::isfinite(at.deeper));
   for (int i = 0; i < 1000; ++i) at = mis.next(at, 1e-20, 1e20, i % 2 == 0, 1.0, 1e-6, 1e20);

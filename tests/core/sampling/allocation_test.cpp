@@ -14,6 +14,10 @@ namespace {
 thread_local uint64_t allocations = 0;
 }  // namespace
 
+#if defined(__GNUC__) && !defined(__clang__)
+// Both are replaced as a pair; gcc sees one of them inlined.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
 // The program's own operator new replaces the library's for everything it loads.
 void* operator new(size_t size) {
   ++allocations;

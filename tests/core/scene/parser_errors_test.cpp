@@ -128,7 +128,7 @@ const Bad bad_scenes[] = {
     {"InstanceInObject",
      "WorldBegin ObjectBegin \"o\" ObjectInstance \"o\" ObjectEnd",
      "1:28",
-     {"ObjectInstance inside", "\"o\""}},
+     {"contain itself", "\"o\""}},
     {"LoneObjectEnd", "WorldBegin ObjectEnd", "1:12", {"ObjectEnd without"}},
     {"ObjectTwice",
      "WorldBegin ObjectBegin \"o\" ObjectEnd\nObjectBegin \"o\"",

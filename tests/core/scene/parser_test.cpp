@@ -56,6 +56,13 @@ class Files {
   fs::path folder_;
 };
 
+TEST(Parser, NoAreaLightEndsEmission) {
+  const SceneDescription s =
+      world("AreaLightSource \"diffuse\" Shape \"sphere\" AreaLightSource \"\" Shape \"sphere\"");
+  EXPECT_EQ(s.shapes.at(0).area_light, 0);
+  EXPECT_EQ(s.shapes.at(1).area_light, -1);
+}
+
 TEST(Parser, OptionsBlock) {
   const SceneDescription s = parse(R"(
     LookAt 0 0 -5  0 0 0  0 1 0
@@ -256,13 +263,16 @@ TEST(Parser, ObjectsAndInstances) {
     ObjectBegin "o" Translate 0 1 0 Shape "a" ObjectEnd
     Translate 0 0 1 ObjectInstance "o"
     ObjectInstance "p"
-    ObjectBegin "p" ObjectEnd)");
+    ObjectBegin "p" Translate 0 2 0 ObjectInstance "o" ObjectEnd)");
   ASSERT_EQ(s.objects.size(), 2u);
   EXPECT_TRUE(s.shapes.empty());
   expect_point(s.objects[0].shapes[0].transform.start, {0, 0, 0}, {1, 1, 0});
   ASSERT_EQ(s.instances.size(), 2u);
   EXPECT_EQ(s.instances[0].object, 0u);
   EXPECT_EQ(s.instances[1].object, 1u);
+  ASSERT_EQ(s.objects[1].instances.size(), 1u);
+  EXPECT_EQ(s.objects[1].instances[0].object, 0u);
+  expect_point(s.objects[1].instances[0].transform.start, {0, 0, 0}, {1, 2, 1});
   expect_point(s.instances[0].transform.start, {0, 0, 0}, {1, 0, 1});
 }
 
@@ -369,29 +379,6 @@ TEST(Parser, ArraysLongerThanAnyBuffer) {
   const auto& values = s.shapes[0].parameters[0].floats;
   ASSERT_EQ(values.size(), 30000u);
   EXPECT_EQ(values[29999], 29999.5f);
-}
-
-// Scenes that other renderers' users share, if they are on this machine.
-TEST(Parser, ReferenceScenes) {
-  const char* const given = std::getenv("PSSMLT_REFERENCE_SCENES");
-  const fs::path folder =
-      given != nullptr ? fs::path(given) : fs::path(PSSMLT_SOURCE_DIR) / "../shared/scenes";
-  if (!fs::is_directory(folder))
-    GTEST_SKIP() << "REFERENCE SCENES NOT TESTED: no folder " << folder
-                 << "; name one in PSSMLT_REFERENCE_SCENES";
-  int scenes = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() != ".pbrt" || entry.path().parent_path().filename() == "geometry")
-      continue;
-    SCOPED_TRACE(entry.path().string());
-    EXPECT_NO_THROW({
-      const SceneDescription s = parse_file(entry.path().string(), nullptr);
-      EXPECT_FALSE(s.shapes.empty());
-      EXPECT_TRUE(s.camera.given());
-    });
-    ++scenes;
-  }
-  EXPECT_GT(scenes, 0);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/base/random.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pssmlt {
 namespace {
@@ -103,8 +104,8 @@ TEST(Ply, AllFormatsGiveTheSameMesh) {
 }
 
 TEST(Ply, GzippedAndPlainFilesAreRead) {
-  const std::string plain = testing::TempDir() + "pssmlt-test.ply";
-  const std::string packed = testing::TempDir() + "pssmlt-test.ply.gz";
+  const std::string plain = test::own_file("test.ply");
+  const std::string packed = test::own_file("test.ply.gz");
   const std::string text = sample(Order::Little);
   std::ofstream(plain, std::ios::binary) << text;
   const gzFile file = gzopen(packed.c_str(), "wb");

@@ -1,0 +1,182 @@
+// How the hierarchy of lights is built: top down, each split the cheapest of those between bins
+// along the three axes.
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "core/scene/light_tree.h"
+
+namespace pssmlt {
+namespace {
+
+constexpr size_t bins = 12;
+// Past this depth halves have equal numbers of lights, so that a trail's 64 bits are enough.
+constexpr int deepest_split = 24;
+
+double as_angle(float cosine) {
+  return std::acos(std::clamp(static_cast<double>(cosine), -1.0, 1.0));
+}
+
+void add(LightBounds& to, const LightBounds& b) {
+  to.cos_spread = to.normals.is_empty() ? b.cos_spread : std::min(to.cos_spread, b.cos_spread);
+  to.box.add(b.box);
+  to.normals.add(b.normals);
+  to.two_sided |= b.two_sided;
+  to.intensity += b.intensity;
+}
+LightBounds nothing() {
+  LightBounds b;
+  b.normals = DirectionCone::none();
+  return b;
+}
+
+// Conty Estevez and Kulla 2018, section 4.1: the cosine-weighted measure of the directions in which
+// normals in the cone shine [sr].
+double orientation_measure(const LightBounds& b) {
+  const double o = as_angle(b.normals.cosine);
+  const double w = std::min(o + as_angle(b.cos_spread), std::numbers::pi);
+  const double cone = 2.0 * std::numbers::pi * (1.0 - std::cos(o));
+  return cone +
+         0.5 * std::numbers::pi *
+             (2.0 * w * std::sin(o) - std::cos(o - 2.0 * w) - 2.0 * o * std::sin(o) + std::cos(o));
+}
+
+double squared_diagonal(const Bounds& box) {
+  const dvec3 diagonal = dvec3(box.max) - dvec3(box.min);
+  return glm::dot(diagonal, diagonal);
+}
+
+// The paper weighs by the area of the box; the guess of a node's irradiance sees a sphere around
+// it, and lights in one plane or line have boxes without area.
+double cost(const LightBounds& b) {
+  if (b.normals.is_empty()) return 0.0;
+  return static_cast<double>(b.intensity) * orientation_measure(b) * squared_diagonal(b.box);
+}
+
+}  // namespace
+
+class LightTreeBuilder {
+ public:
+  LightTreeBuilder(const std::vector<LightBounds>& lights, LightTree& tree)
+      : lights_(lights), tree_(tree), order_(lights.size()) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    for (const LightBounds& b : lights) {
+      centers_.push_back(0.5f * b.box.min + 0.5f * b.box.max);
+      tree_.intensity_ += static_cast<double>(b.intensity);
+    }
+    tree_.trails_.resize(lights.size());
+    tree_.nodes_.reserve(2 * lights.size() - 1);
+    tree_.nodes_.emplace_back();
+    build(0, 0, lights.size(), 0, 0);
+  }
+
+ private:
+  struct Split {
+    double cost = std::numeric_limits<double>::infinity();
+    int axis = 0;
+    size_t bin = 0;  // the last one of the first child
+  };
+  void build(uint32_t node, size_t begin, size_t end, int depth, uint64_t trail);
+  void fill(uint32_t node, const LightBounds& b);
+  // Where the second child's lights begin; both have some.
+  size_t divide(size_t begin, size_t end, int depth);
+  Split best_split(const Bounds& centers, size_t begin, size_t end) const;
+  void try_axis(const Bounds& centers, int axis, size_t begin, size_t end, Split& best) const;
+  size_t bin_of(const Bounds& centers, int axis, uint32_t light) const {
+    const float extent = centers.max[axis] - centers.min[axis];
+    const float at = (centers_[light][axis] - centers.min[axis]) / extent;
+    return std::min(static_cast<size_t>(at * static_cast<float>(bins)), bins - 1);
+  }
+
+  const std::vector<LightBounds>& lights_;
+  LightTree& tree_;
+  std::vector<uint32_t> order_;
+  std::vector<vec3> centers_;
+};
+
+LightTree::LightTree(const std::vector<LightBounds>& lights) { LightTreeBuilder(lights, *this); }
+
+void LightTreeBuilder::fill(uint32_t node, const LightBounds& b) {
+  LightTree::Node& n = tree_.nodes_[node];
+  n.center = 0.5f * b.box.min + 0.5f * b.box.max;
+  n.radius2 = static_cast<float>(0.25 * squared_diagonal(b.box));
+  n.axis = b.normals.axis;
+  n.cos_cone = b.normals.cosine;
+  n.cos_spread = b.cos_spread;
+  n.two_sided = b.two_sided;
+  // Relative: sums stay in range whatever the lights' unit.
+  n.intensity = static_cast<float>(static_cast<double>(b.intensity) / tree_.intensity_);
+}
+
+void LightTreeBuilder::build(uint32_t node, size_t begin, size_t end, int depth, uint64_t trail) {
+  LightBounds all = nothing();
+  for (size_t i = begin; i < end; ++i) add(all, lights_[order_[i]]);
+  fill(node, all);
+  if (end - begin == 1) {
+    tree_.nodes_[node].leaf = true;
+    tree_.nodes_[node].next = order_[begin];
+    tree_.trails_[order_[begin]] = trail;
+    return;
+  }
+  const size_t middle = divide(begin, end, depth);
+  const auto first = static_cast<uint32_t>(tree_.nodes_.size());
+  tree_.nodes_[node].next = first;
+  tree_.nodes_.resize(first + 2);
+  build(first, begin, middle, depth + 1, trail);
+  build(first + 1, middle, end, depth + 1, trail | uint64_t{1} << depth);
+}
+
+size_t LightTreeBuilder::divide(size_t begin, size_t end, int depth) {
+  Bounds centers;
+  for (size_t i = begin; i < end; ++i) centers.add(centers_[order_[i]]);
+  const auto from = order_.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto to = order_.begin() + static_cast<std::ptrdiff_t>(end);
+  if (depth < deepest_split) {
+    const Split split = best_split(centers, begin, end);
+    if (split.cost < std::numeric_limits<double>::infinity()) {
+      const auto middle = std::partition(from, to, [&](uint32_t light) {
+        return bin_of(centers, split.axis, light) <= split.bin;
+      });
+      return static_cast<size_t>(middle - order_.begin());
+    }
+  }
+  const vec3 extent = centers.max - centers.min;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const auto middle = from + (to - from) / 2;
+  std::nth_element(from, middle, to, [&](uint32_t a, uint32_t b) {
+    return centers_[a][axis] != centers_[b][axis] ? centers_[a][axis] < centers_[b][axis] : a < b;
+  });
+  return static_cast<size_t>(middle - order_.begin());
+}
+
+LightTreeBuilder::Split LightTreeBuilder::best_split(const Bounds& centers, size_t begin,
+                                                     size_t end) const {
+  Split best;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (centers.max[axis] > centers.min[axis]) try_axis(centers, axis, begin, end, best);
+  }
+  return best;
+}
+
+void LightTreeBuilder::try_axis(const Bounds& centers, int axis, size_t begin, size_t end,
+                                Split& best) const {
+  std::array<LightBounds, bins> content;
+  content.fill(nothing());
+  for (size_t i = begin; i < end; ++i) {
+    add(content[bin_of(centers, axis, order_[i])], lights_[order_[i]]);
+  }
+  std::array<double, bins> below{};  // cost of the bins up to here
+  LightBounds sum = nothing();
+  for (size_t i = 0; i + 1 < bins; ++i) {
+    add(sum, content[i]);
+    below[i] = cost(sum);
+  }
+  sum = nothing();
+  for (size_t i = bins - 1; i > 0; --i) {
+    add(sum, content[i]);
+    const double total = below[i - 1] + cost(sum);
+    if (total < best.cost) best = {total, axis, i - 1};
+  }
+}
+
+}  // namespace pssmlt

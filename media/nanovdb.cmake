@@ -1,0 +1,2 @@
+# Compressed files need both.
+target_link_libraries(${target} PRIVATE ZLIB::ZLIB blosc)

@@ -1,0 +1,10 @@
+# Assets are written by tinygltf, and by libdraco where it is.
+find_library(PSSMLT_TINYGLTF tinygltf REQUIRED)
+target_link_libraries(${target} PRIVATE ${PSSMLT_TINYGLTF})
+find_library(PSSMLT_DRACO draco)
+find_path(PSSMLT_DRACO_INCLUDE draco/compression/decode.h)
+if(PSSMLT_DRACO AND PSSMLT_DRACO_INCLUDE)
+  target_include_directories(${target} SYSTEM PRIVATE ${PSSMLT_DRACO_INCLUDE})
+  target_link_libraries(${target} PRIVATE ${PSSMLT_DRACO})
+  target_compile_definitions(${target} PRIVATE PSSMLT_HAS_DRACO)
+endif()

@@ -1,0 +1,1 @@
+target_sources(${target} PRIVATE vocabulary/vocabulary.cpp)
