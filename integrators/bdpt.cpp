@@ -69,16 +69,13 @@ class Bdpt final : public Integrator {
                           "only strategies with this many camera vertices; "
                           "-1: all")) {
     const bool strategies = p.flag("visualizestrategies", false,
-                                   "not supported: ask the renderer for images by strategy");
-    const bool weights = p.flag("visualizeweights", false, "not supported, see there");
-    const bool regularize =
-        p.flag("regularize", false, "roughen surfaces after a rough bounce; not supported yet");
+                                   "read, not applied: ask the renderer for images by strategy");
+    const bool weights = p.flag("visualizeweights", false, "as above");
     if (p.describing()) return;
-    if (regularize) p.fail("regularize", "regularize is not supported yet");
     if (strategies || weights) {
-      p.fail(strategies ? "visualizestrategies" : "visualizeweights",
-             "not supported: ask for images by strategy on the command line instead (with "
-             "\"bool unweighted\" true for the unweighted ones)");
+      p.note(
+          "images by strategy are not applied here: --per-strategy writes them (with \"bool "
+          "unweighted\" true the unweighted ones)");
     }
     if (only_s_ < -1) p.fail("s", "s must be -1 or a number of vertices");
     if (only_t_ < -1 || only_t_ == 0) p.fail("t", "t must be -1 or a number of vertices from 1 on");
@@ -371,4 +368,4 @@ void Bdpt::join(const PathVertex& x, const PathVertex& y, Strategy st, float fac
 }  // namespace
 }  // namespace pssmlt
 
-PSSMLT_PLUGIN(Integrator, "bdpt", pssmlt::Bdpt, {"mlt", "pssmlt"})
+PSSMLT_PLUGIN(Integrator, "bdpt", pssmlt::Bdpt, {"mlt", "pssmlt"}, {"sppm", ""})

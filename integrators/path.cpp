@@ -22,12 +22,7 @@ class Path final : public Integrator {
   static constexpr const char* summary =
       "path tracing with next event estimation and multiple importance sampling (Kajiya 1986)";
 
-  explicit Path(Parameters& p) : limits_(p), pick_(read_light_pick(p)) {
-    const bool regularize =
-        p.flag("regularize", false, "roughen surfaces after a rough bounce; not supported yet");
-    if (p.describing()) return;
-    if (regularize) p.fail("regularize", "regularize is not supported yet");
-  }
+  explicit Path(Parameters& p) : limits_(p), pick_(read_light_pick(p)) {}
 
   void prepare(const Scene& scene) override {
     scene_ = &scene;
@@ -217,4 +212,4 @@ bool Path::scatter(Walk& w, const Surface& s, PrimarySample& u) const {
 }  // namespace pssmlt
 
 PSSMLT_PLUGIN(Integrator, "path", pssmlt::Path, {"volpath", ""}, {"simplepath", ""},
-              {"simplevolpath", ""})
+              {"simplevolpath", ""}, {"randomwalk", ""})

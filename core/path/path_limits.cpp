@@ -18,6 +18,10 @@ PathLimits::PathLimits(Parameters& p) {
       "environment, P point, spot, distant or hidden light, V a medium that emits, L any light, D "
       "diffuse, rough or in a medium, S perfectly specular, . either, E camera, with ( ) | * + ? "
       "and &");
+  // A surface would scatter differently by the path that reached it, and strategies that meet on it
+  // would disagree.
+  if (p.flag("regularize", false, "roughen surfaces after a rough bounce; read, not applied"))
+    p.note("regularize is not applied: surfaces scatter the same for all paths");
   if (p.describing()) return;
   if (min_bounces < 0) p.fail("mindepth", "mindepth must not be negative");
   if (max_bounces < min_bounces || max_bounces > deepest) {

@@ -83,17 +83,26 @@ void read_layers(Parameters& film, FilmDirective& settings, std::vector<std::str
   }
 }
 
+// The buckets of pbrt-v4's "spectral" would need light by wavelength; its RGB picture does not.
+void read_buckets(Parameters& film, std::vector<std::string>& log) {
+  film.integer("nbuckets", 16, "", "spectral channels; not written");
+  film.number("lambdamin", 360.f, "nm", "of the first; not written");
+  film.number("lambdamax", 830.f, "nm", "of the last; not written");
+  log.push_back("film: light is carried as RGB: the spectral buckets are not used, the picture is");
+}
+
 }  // namespace
 
 FilmDirective read_film(const SceneDescription& scene, const BuildOptions& options,
                         std::vector<std::string>& log) {
   const std::string type = scene.film.given() ? scene.film.type : "rgb";
-  if (type != "rgb" && type != "gbuffer") {
+  if (type != "rgb" && type != "gbuffer" && type != "spectral") {
     throw Error(scene.film.where, "film \"" + type + "\" is unknown or not supported yet");
   }
   Parameters film(scene.film.parameters, scene.film.where, "film \"" + type + "\"", nullptr);
   FilmDirective settings;
   if (type == "gbuffer") read_layers(film, settings, log);
+  if (type == "spectral") read_buckets(film, log);
   RasterFrame& frame = settings.frame;
   read_size(film, options, frame);
   const std::vector<float> window =

@@ -71,8 +71,12 @@ Directive choose(const Directive& scene, const std::optional<std::string>& chose
 
 void drop_unknown(const std::vector<ParameterDoc>& docs, const std::string& kind, Directive& d,
                   std::vector<std::string>& log) {
+  std::vector<std::string> names;
+  for (const ParameterDoc& doc : docs) names.push_back(doc.name);
   std::erase_if(d.parameters, [&](const Parameter& p) {
-    const bool known = std::ranges::find(docs, p.name, &ParameterDoc::name) != docs.end();
+    // What is nearly a known name is a slip of the pen, which check_all_read() tells.
+    const bool known =
+        std::ranges::find(names, p.name) != names.end() || !suggestion(p.name, names).empty();
     if (!known) {
       log.push_back("the scene's parameter \"" + p.name + "\" does not apply to the chosen " +
                     owner_name(kind, d.type));
@@ -163,8 +167,10 @@ Layer build_layer(const LayerDescription& description, const BuildOptions& optio
   log_alias("sampler", found_sampler, log);
   const auto integrator_docs = describe(*found_integrator.descriptor);
   const auto sampler_docs = describe(*found_sampler.descriptor);
-  if (options.integrator) drop_unknown(integrator_docs, "integrator", integrator, log);
   // An alias' parameters are another plugin's: what ours does not know is said, not refused.
+  if (options.integrator || !found_integrator.alias.empty()) {
+    drop_unknown(integrator_docs, "integrator", integrator, log);
+  }
   if (options.sampler || !found_sampler.alias.empty()) {
     drop_unknown(sampler_docs, "sampler", sampler, log);
   }
@@ -213,7 +219,7 @@ void apply_assignments(const std::vector<std::string>& set, const std::string& o
 
 std::vector<Layer> build_layers(const SceneDescription& scene, const BuildOptions& options,
                                 std::string& settings, std::vector<std::string>& log) {
-  BuildResolver resolver(scene, Transform(), options.defaults.material);
+  BuildResolver resolver(scene, Transform(), options.defaults.material, log);
   std::vector<Layer> layers;
   for (const LayerDescription& description : scene.layers) {
     Parameters(description.parameters, description.where, "layer", &resolver).check_all_read();

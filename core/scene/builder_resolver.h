@@ -13,10 +13,10 @@ namespace pssmlt {
 // Textures and materials are built on demand: what nothing refers to is neither loaded nor checked.
 class BuildResolver final : public SceneResolver {
  public:
-  // to_render: world to render space, for the textures' transforms.
+  // to_render: world to render space, for the textures' transforms; log: where notes go.
   BuildResolver(const SceneDescription& scene, const Transform& to_render,
-                const std::string& default_material)
-      : scene_(scene), to_render_(to_render), default_material_(default_material) {}
+                const std::string& default_material, std::vector<std::string>& log)
+      : scene_(scene), to_render_(to_render), default_material_(default_material), log_(log) {}
 
   std::shared_ptr<const Texture<float>> float_texture(const std::string& name,
                                                       const Location& where) override;
@@ -24,6 +24,7 @@ class BuildResolver final : public SceneResolver {
                                                   const Location& where) override;
   std::string resolve_path(const std::string& name) const override;
   std::shared_ptr<const Material> material(const std::string& name, const Location& where) override;
+  void note(const std::string& line) override { log_.push_back(line); }
   // Medium by name; throws Error at `where`.
   std::shared_ptr<const Medium> medium(const std::string& name, const Location& where);
   // By index into the description's materials.
@@ -41,6 +42,7 @@ class BuildResolver final : public SceneResolver {
   const SceneDescription& scene_;
   Transform to_render_;
   std::string default_material_;
+  std::vector<std::string>& log_;
   std::map<const TextureDescription*, std::shared_ptr<const Texture<float>>> float_textures_;
   std::map<const TextureDescription*, std::shared_ptr<const Texture<Rgb>>> rgb_textures_;
   std::map<uint32_t, std::shared_ptr<const Material>> materials_;

@@ -301,6 +301,10 @@ void Parameters::check_all_read() const {
                                  suggestion(unread->name, asked_));
 }
 
+void Parameters::resolver_note(const std::string& message) const {
+  resolver_->note(owner_ + ": " + message);
+}
+
 void Parameters::fail(const std::string& message) const {
   throw Error(where_, owner_.empty() ? message : owner_ + ": " + message);
 }

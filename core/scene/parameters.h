@@ -134,6 +134,11 @@ class Parameters {
   // Same, at the named parameter if the scene gives it.
   [[noreturn]] void fail(std::string_view name, const std::string& message) const;
 
+  // A line for the user: what was read but is not followed, and why. Nothing while describing.
+  void note(const std::string& message) const {
+    if (resolver_ != nullptr) resolver_note(message);
+  }
+
   const Location& where() const { return where_; }
   const std::string& owner() const { return owner_; }
   SceneResolver& resolver() const { return *resolver_; }
@@ -155,6 +160,7 @@ class Parameters {
   const Parameter* find(std::string_view name, std::initializer_list<ParameterType> accepted);
   // The same for exactly one value (a point is one value of three numbers).
   const Parameter* find_one(std::string_view name, std::initializer_list<ParameterType> accepted);
+  void resolver_note(const std::string& message) const;
   [[noreturn]] void fail_at(const Parameter& p, const std::string& message) const;
   void check_finite(const Parameter& p) const;
   template <typename V>
@@ -187,6 +193,8 @@ class SceneResolver {
   // Material by name (for mix); throws Error at `where`.
   virtual std::shared_ptr<const class Material> material(const std::string& name,
                                                          const Location& where) = 0;
+  // A line for the log of the render.
+  virtual void note(const std::string& line) { static_cast<void>(line); }
 };
 
 }  // namespace pssmlt

@@ -33,7 +33,7 @@ class SceneBuilder {
         options_(options),
         scene_options_(read_scene_options(description, built_.log)),
         to_render_(find_to_render()),
-        resolver_(description, to_render_, options.defaults.material),
+        resolver_(description, to_render_, options.defaults.material, built_.log),
         scene_(std::make_unique<Scene>()),
         media_(resolver_, scene_->features_) {}
 

@@ -147,11 +147,7 @@ size_t check(const Document& d, int index, int components, const std::string& po
   if (found != components)
     d.fail(here, "has " + std::to_string(found) + " components, " + std::to_string(components) +
                      " are needed for " + pointer);
-  if (a.bufferView < 0 && a.count > most_zeros) d.fail(here, "has too many elements without data");
-  if (a.bufferView >= 0) {
-    const size_t size = d.view(a.bufferView, here).size();
-    if (a.count > size) d.fail(here, "reaches beyond its buffer view");
-  }
+  check_backed(d, index, pointer);
   return a.count * static_cast<size_t>(components);
 }
 
@@ -162,6 +158,14 @@ int component_count(const Document& d, int index, const std::string& pointer) {
       tinygltf::GetNumComponentsInType(static_cast<uint32_t>(find(d, index, pointer).type));
   if (n <= 0) d.fail(element("accessors", index), "has an unknown type");
   return n;
+}
+
+void check_backed(const Document& d, int index, const std::string& pointer) {
+  const tinygltf::Accessor& a = find(d, index, pointer);
+  const std::string here = element("accessors", index);
+  if (a.bufferView < 0 && a.count > most_zeros) d.fail(here, "has too many elements without data");
+  if (a.bufferView < 0) return;
+  if (a.count > d.view(a.bufferView, here).size()) d.fail(here, "reaches beyond its buffer view");
 }
 
 size_t element_count(const Document& d, int index, const std::string& pointer) {

@@ -18,5 +18,7 @@ std::vector<uint32_t> read_integers(const Document& document, int accessor, int 
                                     const std::string& pointer);
 int component_count(const Document& document, int accessor, const std::string& pointer);
 size_t element_count(const Document& document, int accessor, const std::string& pointer);
+// Throws Error if the accessor has more elements than its data can hold.
+void check_backed(const Document& document, int accessor, const std::string& pointer);
 
 }  // namespace pssmlt::gltf

@@ -16,6 +16,8 @@ Attributes::Attributes(const Document& document, const tinygltf::Primitive& prim
   vertices_ = draco_ ? draco_->vertices
                      : element_count(document, accessor("POSITION"), pointer + ".attributes");
   if (vertices_ > 0x7FFFFFFFu) document.fail(pointer, "has too many vertices");
+  // Before anything is made that has an element a vertex.
+  if (!draco_) check_backed(document, accessor("POSITION"), pointer + ".attributes");
 }
 
 void Attributes::decompress(const tinygltf::Value& packed) {

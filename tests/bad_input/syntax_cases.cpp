@@ -77,7 +77,7 @@ std::vector<BadInput> bad_directives() {
       {"HugestPicture", size("2147483647", "2147483647"), {"too large"}, "1:1"},
       {"EmptyCrop", options("Film \"rgb\" \"float cropwindow\" [.5 .5 0 1]"), {"no pixels"}, "1:1"},
       {"ShortCrop", options("Film \"rgb\" \"float cropwindow\" [0 1]"), {"4 numbers"}, "1:12"},
-      {"UnknownFilm", options("Film \"spectral\""), {"film \"spectral\"", "not supported"}, "1:1"},
+      {"UnknownFilm", options("Film \"polaroid\""), {"film \"polaroid\"", "not supported"}, "1:1"},
       {"UnknownIntegrator", options("Integrator \"paht\""), {"did you mean", "path"}, "1:1"},
       {"UnknownSampler", options("Sampler \"soboll\""), {"did you mean", "sobol"}, "1:1"},
       {"UnknownCamera",

@@ -70,6 +70,17 @@ inline Blocks render_to_precision(Job job, int renders, int edge, const Precisio
   return blocks;
 }
 
+// What may be asked of the other side of a comparison if both sides together were to reach `goal`
+// and `reference`, and the one that is there has come out better.
+inline Precision left_over(const Precision& goal, const Precision& reference, const Blocks& there) {
+  const Precision reached = precision(there);
+  const auto rest = [](double a, double b, double c) {
+    return std::sqrt(std::max(a * a + b * b - c * c, a * a));
+  };
+  return {rest(goal.block, reference.block, reached.block),
+          rest(goal.whole, reference.whole, reached.whole)};
+}
+
 struct Demand {
   double false_alarm;  // of all comparisons of one call together
   double block_error;  // relative, of a single block, found with power 0.99
