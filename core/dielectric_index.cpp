@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "core/base/log.h"
+#include "core/cauchy_index.h"
 
 namespace pssmlt {
 namespace {
 
-constexpr double helium_d = 587.6;  // [nm]
 constexpr const char* doc =
     "refractive index of the inside over that of the outside, or a glass's spectrum";
 
@@ -41,7 +41,7 @@ float read_dielectric_index(Parameters& p, const char* name) {
   if (index.varies() && !p.describing()) {
     const std::string place = to_string(p.where());
     log_info((place.empty() ? "" : place + ": ") + p.owner() +
-             ": dispersion is rendered for \"dielectric\" only; eta = " +
+             ": only \"dielectric\" disperses by a spectrum; eta = " +
              std::to_string(index.at_d()) + ", the value at 587.6 nm, is used");
   }
   return index.at_d();

@@ -6,13 +6,13 @@
 // specular: one GGX lobe for metal and for the dielectric's surface, F = a + b (1 - c)^5 (Schlick).
 // through:  of transmitting dielectrics. Thin: the specular lobe turned to the other side. With a
 //           volume: refraction and reflection at one boundary (core/rough_interface.h), exact
-//           Fresnel.
+//           Fresnel, both by `eta`, which may follow the wavelength; f0, and so all other lobes
+//           and what reaches them, do not.
 // T:        what coat and sheen let pass, by their tabulated albedos; the smaller one of both
 //           directions keeps the sum reciprocal and below one.
 // diffuse:  (1 - E(wo)) (1 - E(wi)) / (pi (1 - mean E)) base, where E is the albedo of all that
-// lies
-//           above (Kulla, Conty 2017): a white base under any surface reflects all the light, where
-//           the specification's weights by the half vector gain some at grazing angles.
+//           lies above (Kulla, Conty 2017): a white base under any surface reflects all the light,
+//           where the specification's weights by the half vector gain some at grazing angles.
 //
 // Lobes are chosen by probabilities that depend on wo alone; pdf() is the sum over them.
 #pragma once

@@ -2,14 +2,17 @@
 // plastics, cloth, car paint, thin and solid glass, and mixtures of them.
 //
 // Source: Khronos Group 2021, glTF 2.0 Specification, appendix B, and the extensions
-// KHR_materials_ior, specular, transmission, volume, clearcoat, sheen, anisotropy. The lobe's width
-// is the square of the roughness, unless "remaproughness" is false. With a "thickness" the surface
-// is the boundary of a body, which must be closed, and refracts; without one it is a thin sheet.
-// Both sides look alike, but for refraction. Left out: dispersion (rendering is RGB), normals of
-// the coat's own, what facets scatter twice or more (metals lose it). Emission is an area light,
-// opacity the shape's.
-#include "core/base/log.h"
+// KHR_materials_ior, specular, transmission, volume, dispersion, clearcoat, sheen, anisotropy. The
+// lobe's width is the square of the roughness, unless "remaproughness" is false. With a "thickness"
+// the surface is the boundary of a body, which must be closed, and refracts; without one it is a
+// thin sheet. Both sides look alike, but for refraction. The boundary of a dispersing body reflects
+// and refracts by the index at the path's wavelength; every path that meets one has a wavelength,
+// also where it is reflected by another lobe, all of which keep the index at the d line. Left out:
+// normals of the coat's own, what facets scatter twice or more (metals lose it). Emission is an
+// area light, opacity the shape's.
+#include "core/cauchy_index.h"
 #include "core/material_base.h"
+#include "core/path/dispersion.h"
 #include "core/plugin/plugin.h"
 #include "core/principled_bsdf.h"
 
@@ -38,17 +41,18 @@ class Principled final : public BumpedMaterial {
     if (!(eta_ >= 1.f || eta_ == 0.f))
       p.fail("ior", "\"ior\" must be 1 or more, or 0 for a dielectric that reflects all");
     if (!(thickness_ >= 0.f)) p.fail("thickness", "\"thickness\" must not be negative");
-    if (dispersion_ != 0.f)
-      log_warning(to_string(p.where()) +
-                  ": dispersion is not rendered: refraction is the same for all colours");
+    if (!(dispersion_ >= 0.f) || !std::isfinite(dispersion_))
+      p.fail("dispersion", "\"dispersion\" must be finite and not negative");
+    if (refracts()) index_ = CauchyIndex(eta_, dispersion_);
+    traits_ = find_traits();
   }
 
-  const Bsdf* bsdf(const Hit& hit, MaterialNumbers, BsdfStorage& storage) const override {
+  const Bsdf* bsdf(const Hit& hit, MaterialNumbers u, BsdfStorage& storage) const override {
     PrincipledPoint at;
     at.base = clamp_reflectance(base_->evaluate(hit));
     at.metallic = unit(metallic_, hit);
     at.thin = !(thickness_ > 0.f) || eta_ == 0.f;
-    at.eta = eta_ == 0.f ? 1.f : eta_;
+    at.eta = index(u);
     at.transmission = unit(transmission_, hit);
     set_reflection(hit, at);
     set_widths(hit, at);
@@ -60,7 +64,10 @@ class Principled final : public BumpedMaterial {
     return storage.make<PrincipledBsdf>(at);
   }
 
-  MaterialTraits traits() const override {
+  MaterialTraits traits() const override { return traits_; }
+
+ private:
+  MaterialTraits find_traits() const {
     const bool smooth = may_be_smooth(*roughness_);
     const bool rough = may_be_rough(*roughness_) || !is_constant(*anisotropy_, 0.f);
     const bool coated = !is_constant(*coat_, 0.f);
@@ -68,10 +75,19 @@ class Principled final : public BumpedMaterial {
     const bool fibres = !sheen_->constant() || !is_black(sheen_->evaluate(Hit()));
     return {.diffuse_lobes = rough || base || fibres || (coated && may_be_rough(*coat_roughness_)),
             .delta_lobes = smooth || (coated && may_be_smooth(*coat_roughness_)),
-            .transmits = !is_constant(*transmission_, 0.f)};
+            .transmits = !is_constant(*transmission_, 0.f),
+            .disperses = index_.varies()};
   }
-
- private:
+  // Some of the light goes through the boundary of a body.
+  bool refracts() const {
+    return thickness_ > 0.f && eta_ != 0.f && !is_constant(*transmission_, 0.f) &&
+           !is_constant(*metallic_, 1.f);
+  }
+  float index(const MaterialNumbers& u) const {
+    if (eta_ == 0.f) return 1.f;
+    if (!index_.varies() || !u.sample) return eta_;
+    return index_.at(path_wavelength(*u.sample).nanometres);
+  }
   void read_base(Parameters& p) {
     base_ = p.rgb_texture("basecolor", Rgb(0.8f), SpectrumUse::Albedo, "",
                           "colour of the diffuse base, of metal, and of what passes");
@@ -97,7 +113,7 @@ class Principled final : public BumpedMaterial {
     transmission_ =
         p.float_texture("transmission", 0.f, "", "share of the base that lets light pass");
     thickness_ = p.number("thickness", 0.f, "m", "greater than 0: boundary of a body, refracts");
-    dispersion_ = p.number("dispersion", 0.f, "", "20 / Abbe number; read, not rendered yet");
+    dispersion_ = p.number("dispersion", 0.f, "", "20 / Abbe number, of a body that refracts");
   }
   void read_layers(Parameters& p) {
     coat_ = p.float_texture("clearcoat", 0.f, "", "share of a coat of index 1.5");
@@ -156,6 +172,8 @@ class Principled final : public BumpedMaterial {
   FloatTexture coat_, coat_roughness_, sheen_roughness_;
   float turn_ = 0.f, eta_ = 1.5f, thickness_ = 0.f, dispersion_ = 0.f;
   bool remap_ = true, has_axes_ = false;
+  CauchyIndex index_;  // does not vary where nothing refracts
+  MaterialTraits traits_;
 };
 
 }  // namespace

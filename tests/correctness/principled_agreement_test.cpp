@@ -1,5 +1,6 @@
 // Rays from the camera and rays from the lights agree on the principled material, lobes of which
-// reflect, pass and refract, and on lights whose emission a texture varies, by blocks of pixels.
+// reflect, pass and refract by wavelength, and on lights whose emission a texture varies, by blocks
+// of pixels.
 //
 // False alarms: below 10^-6 a test. Power: 0.99 against an error of 4 % that all blocks have, and
 // of 30 % in one block alone, computed from the errors measured and asserted.
@@ -43,7 +44,8 @@ AttributeEnd
 AttributeBegin
   Translate .1 .4 .1
   Material "principled" "rgb basecolor" [ .9 .9 .7 ] "float transmission" .9 "float roughness" .55
-    "float thickness" 1 "float ior" 1.4 "rgb sheencolor" [ .2 .3 .4 ] "float sheenroughness" .5
+    "float thickness" 1 "float ior" 1.4 "float dispersion" 2
+    "rgb sheencolor" [ .2 .3 .4 ] "float sheenroughness" .5
   Shape "sphere" "float radius" .32
 AttributeEnd
 AttributeBegin

@@ -99,6 +99,25 @@ TEST(GltfMaterial, TransmissionThinAndSolid) {
   }
 }
 
+// Of a body alone: a thin sheet with a dispersion is one without.
+TEST(GltfMaterial, Dispersion) {
+  const auto shown = [](double thickness, double dispersion) {
+    Asset asset;
+    tinygltf::Material m = plain();
+    m.extensions["KHR_materials_transmission"] = object({{"transmissionFactor", value(.8)}});
+    m.extensions["KHR_materials_volume"] = object({{"thicknessFactor", value(thickness)}});
+    m.extensions["KHR_materials_dispersion"] = object({{"dispersion", value(dispersion)}});
+    return of_material(asset, m);
+  };
+  const Image body = shown(.5, 2.);
+  EXPECT_EQ(difference(body, of_text(plain_text + "\"float transmission\" .8 "
+                                                  "\"float thickness\" .5 "
+                                                  "\"float dispersion\" 2")),
+            0.0);
+  EXPECT_GT(difference(body, shown(.5, 0.)), 1e-3);
+  EXPECT_EQ(difference(shown(0., 2.), shown(0., 0.)), 0.0);
+}
+
 // White light that went attenuationDistance has attenuationColor left; as media are plugins,
 // without them the log says that it is left out.
 TEST(GltfMaterial, AbsorptionInsideBodiesIsAMedium) {

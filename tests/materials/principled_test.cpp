@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "core/base/warp.h"
+#include "core/cauchy_index.h"
+#include "core/color/fresnel.h"
 #include "core/ggx_albedo.h"
+#include "core/path/dispersion.h"
 #include "core/sheen.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/make_plugin.h"
+#include "tests/support/walk_source.h"
 
 namespace pssmlt::test {
 namespace {
@@ -28,6 +32,9 @@ std::vector<Case> rough_cases() {
           {"Glass",
            {rgb("basecolor", 1, 1, 1), number("transmission", 1.f), number("roughness", .6f),
             number("thickness", 1.f)}},
+          {"Dispersing",
+           {rgb("basecolor", 1, 1, 1), number("transmission", .9f), number("roughness", .6f),
+            number("thickness", 1.f), number("dispersion", 5.f)}},
           {"Varnished",
            {rgb("basecolor", 1, 1, 1), number("clearcoat", 1.f), number("clearcoatroughness", .4f),
             number("roughness", .7f)}},
@@ -43,7 +50,7 @@ std::vector<Case> rough_cases() {
 class AnyPrincipled : public testing::TestWithParam<Case> {
  protected:
   AnyPrincipled() : material_(make_material("principled", GetParam().set)) {
-    bsdf_ = material_->bsdf(Hit(), {}, storage_);
+    bsdf_ = material_->bsdf(Hit(), numbers_.next(), storage_);
   }
   std::optional<BsdfSample> draw(RandomStream& random, const vec3& wo, Transport mode) const {
     const float lobe = random.next();
@@ -55,6 +62,7 @@ class AnyPrincipled : public testing::TestWithParam<Case> {
     return {{0.f, 0.f, 1.f}, {.6f, 0.f, .8f}, {0.f, -.96f, .28f}, {.48f, .6f, -.64f}};
   }
   std::shared_ptr<const Material> material_;
+  WalkSource numbers_{1};  // of one wavelength
   BsdfStorage storage_;
   const Bsdf* bsdf_ = nullptr;
 };
@@ -214,6 +222,57 @@ TEST(Principled, SmoothBodyIsGlass) {
   }
 }
 
+ParameterSet dispersing_body() {
+  return {rgb("basecolor", 1, 1, 1), number("transmission", 1.f), number("roughness", 0.f),
+          number("thickness", 1.f), number("dispersion", 1.f)};
+}
+
+// By Snell's and Fresnel's laws with Cauchy's index of the path's wavelength; without a path with
+// that of the d line.
+TEST(Principled, SmoothBodyRefractsByWavelength) {
+  const Made body(dispersing_body());
+  EXPECT_TRUE(body.material->traits().disperses);
+  const vec3 wo = glm::normalize(vec3(.6f, .2f, .5f));
+  EXPECT_EQ(body.bsdf->sample(wo, .99f, {}, Transport::radiance)->eta, 1.5f);
+  const CauchyIndex index(1.5f, 1.f);
+  WalkSource source(3);
+  for (int i = 0; i < 100; ++i) {
+    const MaterialNumbers u = source.next();
+    BsdfStorage storage;
+    const auto s =
+        body.material->bsdf(Hit(), u, storage)->sample(wo, .99f, {}, Transport::radiance);
+    ASSERT_TRUE(s && s->transmitted);
+    const float n = index.at(path_wavelength(*u.sample).nanometres);
+    EXPECT_NEAR(s->eta, n, 1e-6f);
+    EXPECT_NEAR(glm::distance(vec2(s->wi.x, s->wi.y), vec2(-wo.x, -wo.y) / n), 0.f, 1e-6f);
+    EXPECT_NEAR(s->pdf, 1.f - fresnel_dielectric(wo.z, n), 1e-5f);
+  }
+}
+
+// What does not refract by wavelength reads no number of the path's, so that the path needs none.
+TEST(Principled, DispersesOnlyWhereLightRefracts) {
+  const auto reads = [](const Parameter& last) {
+    ParameterSet set = dispersing_body();
+    std::erase_if(set, [&](const Parameter& p) { return p.name == last.name; });
+    set.push_back(last);
+    const Made body(set);
+    WalkSource source(4);
+    const MaterialNumbers u = source.next();
+    BsdfStorage storage;
+    body.material->bsdf(Hit(), u, storage);
+    const bool read = u.sample->held(Stream::shared).end() > 0;
+    EXPECT_EQ(read, body.material->traits().disperses) << last.name;
+    return read;
+  };
+  EXPECT_TRUE(reads(number("transmission", .1f)));
+  EXPECT_FALSE(reads(number("dispersion", 0.f)));
+  EXPECT_FALSE(reads(number("thickness", 0.f)));
+  EXPECT_FALSE(reads(number("transmission", 0.f)));
+  EXPECT_FALSE(reads(number("metallic", 1.f)));
+  EXPECT_FALSE(reads(number("ior", 0.f)));
+  EXPECT_FALSE(reads(number("ior", 1.f)));
+}
+
 TEST(Principled, ThinSheetPassesStraightAndTinted) {
   const Made sheet(
       {rgb("basecolor", .5f, 1.f, 1.f), number("transmission", 1.f), number("roughness", 0.f)});
@@ -247,6 +306,9 @@ TEST(Principled, RefusesAndFails) {
   };
   EXPECT_NE(error(number("ior", .5f)), "");
   EXPECT_NE(error(number("thickness", -1.f)), "");
+  for (const float wrong :
+       {-1.f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+    EXPECT_NE(error(number("dispersion", wrong)).find("test-scene:7:3"), std::string::npos);
   Resolver resolver;
   resolver.floats["broken"] = constant_texture(std::numeric_limits<float>::quiet_NaN());
   const Made broken({texture("roughness", "broken")}, &resolver);
