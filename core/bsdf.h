@@ -14,6 +14,8 @@ namespace pssmlt {
 // light subpaths). Only non-symmetric scattering (refraction) depends on it (Veach 1997, ch. 5).
 enum class Transport : uint8_t { radiance, importance };
 
+class DiffusionProfile;
+
 struct BsdfSample {
   vec3 wi{0.f};             // sampled direction, unit, local
   Rgb weight{0.f};          // f |cos| / pdf [1]; for delta lobes f's factor / probability
@@ -22,6 +24,10 @@ struct BsdfSample {
   bool delta = false;
   bool transmitted = false;
   float eta = 1.f;  // ratio of indices seen by a transmitted ray, for roulette
+  // Not null: the path goes on beneath the surface and leaves it at another point, by this profile
+  // (core/path/way_beneath.h); wi means nothing then, pdf is a probability and pdf_reverse the
+  // density [1/sr] of leaving toward wo.
+  const DiffusionProfile* beneath = nullptr;
 };
 
 // Deterministic once made: everything random about the material was drawn by Material::bsdf.

@@ -20,7 +20,7 @@ float from_rgb(Parameters& p, const char* name) {
 
 }  // namespace
 
-DielectricIndex::DielectricIndex(Parameters& p, const char* name) {
+DielectricIndex::DielectricIndex(Parameters& p, const char* name, float fallback) {
   const std::optional<ParameterType> type = p.type(name);
   float least = 0.f;
   if (type == ParameterType::Spectrum) {
@@ -30,14 +30,14 @@ DielectricIndex::DielectricIndex(Parameters& p, const char* name) {
     least = low.y;
     if (low.y == high.y) samples_.clear();
   } else {
-    at_d_ = type == ParameterType::Rgb ? from_rgb(p, name) : p.number(name, 1.5f, "", doc);
+    at_d_ = type == ParameterType::Rgb ? from_rgb(p, name) : p.number(name, fallback, "", doc);
     least = at_d_;
   }
   if (!(least > 0.f)) p.fail(name, "the refractive index must be positive");
 }
 
-float read_dielectric_index(Parameters& p, const char* name) {
-  const DielectricIndex index(p, name);
+float read_dielectric_index(Parameters& p, const char* name, float fallback) {
+  const DielectricIndex index(p, name, fallback);
   if (index.varies() && !p.describing()) {
     const std::string place = to_string(p.where());
     log_info((place.empty() ? "" : place + ": ") + p.owner() +

@@ -10,7 +10,7 @@ class DielectricIndex {
  public:
   // Reads `name`: a number, a colour whose components are alike, or a spectrum. Positive at all
   // wavelengths; throws Error otherwise.
-  explicit DielectricIndex(Parameters& p, const char* name = "eta");
+  explicit DielectricIndex(Parameters& p, const char* name = "eta", float fallback = 1.5f);
   // At 587.6 nm, the d line of helium, where glasses are specified.
   float at_d() const { return at_d_; }
   bool varies() const { return !samples_.empty(); }
@@ -25,6 +25,6 @@ class DielectricIndex {
 };
 
 // The index at the d line, with a log line if it varies: for materials that do not disperse.
-float read_dielectric_index(Parameters& p, const char* name = "eta");
+float read_dielectric_index(Parameters& p, const char* name = "eta", float fallback = 1.5f);
 
 }  // namespace pssmlt

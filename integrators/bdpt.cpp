@@ -168,7 +168,7 @@ void Bdpt::hit_lights(const Subpath& camera, PrimarySample& u, Splats& out) cons
       continue;
     }
     const Light* const light = s.hit.primitive->light;
-    if (!light) continue;
+    if (!light || s.emerging()) continue;
     hit(camera, k - 1, *light, s.light_point(), scene_->emitted(s.hit, s.wo), u, out);
   }
   const Escape& escape = camera.escape;

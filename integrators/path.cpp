@@ -12,6 +12,7 @@
 #include "core/path/sensor_draw.h"
 #include "core/path/strategies.h"
 #include "core/path/surface.h"
+#include "core/path/way_beneath.h"
 #include "core/plugin/plugin.h"
 
 namespace pssmlt {
@@ -51,6 +52,7 @@ class Path final : public Integrator {
     float eta_squared = 1.f;  // product of squared index ratios, which roulette looks through
     int bounces = 0;
     bool dispersed = false;  // the path has a wavelength
+    bool emerges = false;    // instead of following the ray it has come out from beneath a surface
     PathExpression::State state = 0;
   };
   void add_emission(const Walk& w, const Hit& hit, Splats& out) const;
@@ -58,7 +60,8 @@ class Path final : public Integrator {
   void add_background(const Walk& w, Splats& out) const;
   void add_to_sensor(const Emission& start, Walk& w, PrimarySample& u, Splats& out) const;
   void add_direct(const Walk& w, const Surface& s, PrimarySample& u, Splats& out) const;
-  bool scatter(Walk& w, const Surface& s, PrimarySample& u) const;
+  bool follow(Walk& w, Surface& s, PrimarySample& u, Splats& out) const;
+  bool scatter(Walk& w, Surface& s, PrimarySample& u) const;
   void take_wavelength(Walk& w, const Surface& s, PrimarySample& u) const;
   void add(const Walk& w, const Light& light, const EndpointPoint& at, const Rgb& value,
            Splats& out) const;
@@ -85,29 +88,39 @@ void Path::sample(PrimarySample& u, Splats& out, Workspace&) const {
   if (sensor_) add_to_sensor(*start, w, u, out);
   Surface s;
   for (;;) {
-    Flight flight;
-    const EdgeNumbers edge = edge_numbers(u, Stream::camera, w.bounces, features);
-    const Arrival arrival = fly(*scene_, w.ray, w.medium, edge, s, flight);
-    if (arrival == Arrival::absorbed) return;
-    if (features.media) {
-      w.throughput *= flight.weight();
-      w.pdf *= mean(flight.transmittance);
-    }
-    if (arrival == Arrival::nothing) return add_background(w, out);
-    if (arrival == Arrival::medium) {
-      add_medium_emission(w, s, out);
-    } else if (s.hit.primitive->light) {
-      add_emission(w, s.hit, out);
-    }
+    const bool emerges = std::exchange(w.emerges, false);
+    if (!emerges && !follow(w, s, u, out)) return;
     if (w.bounces == limits_.max_bounces) return;
     ++w.bounces;
     const MaterialNumbers m = material_numbers(u, Stream::camera, w.bounces, features);
-    if (!s.shade(*scene_, -w.ray.direction, m)) return;
+    if (!emerges && !s.shade(*scene_, -w.ray.direction, m)) return;
     if (features.dispersion) take_wavelength(w, s, u);
     if (next_event_ && s.connectible()) add_direct(w, s, u, out);
     if (w.bounces == limits_.max_bounces && !hittable_) return;
     if (!scatter(w, s, u)) return;
   }
+}
+
+// Follows the ray to the next vertex and adds the light it meets; false if there is none.
+inline bool Path::follow(Walk& w, Surface& s, PrimarySample& u, Splats& out) const {
+  Flight flight;
+  const EdgeNumbers edge = edge_numbers(u, Stream::camera, w.bounces, scene_->features());
+  const Arrival arrival = fly(*scene_, w.ray, w.medium, edge, s, flight);
+  if (arrival == Arrival::absorbed) return false;
+  if (scene_->features().media) {
+    w.throughput *= flight.weight();
+    w.pdf *= mean(flight.transmittance);
+  }
+  if (arrival == Arrival::nothing) {
+    add_background(w, out);
+    return false;
+  }
+  if (arrival == Arrival::medium) {
+    add_medium_emission(w, s, out);
+  } else if (s.hit.primitive->light) {
+    add_emission(w, s.hit, out);
+  }
+  return true;
 }
 
 // From the first surface on that asks for it.
@@ -190,8 +203,9 @@ void Path::add_direct(const Walk& w, const Surface& s, PrimarySample& u, Splats&
              {bounces, 1, static_cast<uint8_t>(std::min(w.bounces + 1, 255))});
 }
 
-// Chooses the next direction; false where the path ends.
-bool Path::scatter(Walk& w, const Surface& s, PrimarySample& u) const {
+// Chooses the next direction, or the point where the path leaves the surface it went beneath; false
+// where the path ends.
+bool Path::scatter(Walk& w, Surface& s, PrimarySample& u) const {
   const ScatterNumbers n = scatter_numbers(u, Stream::camera, w.bounces);
   const auto next = s.sample(n.lobe, n.direction, Transport::radiance);
   if (!next || is_black(next->weight)) return false;
@@ -201,6 +215,12 @@ bool Path::scatter(Walk& w, const Surface& s, PrimarySample& u) const {
   if (q < 1.f && !(n.roulette < q)) return false;
   w.throughput /= q;
   w.state = limits_.paths.camera_step(w.state, next->delta);
+  if (next->beneath) [[unlikely]] {
+    const Rgb factor = go_beneath(*scene_, s, *next->beneath, n, next->pdf, s);
+    w.throughput *= factor;
+    w.emerges = true;
+    return !is_black(factor) && !limits_.paths.camera_dead(w.state);
+  }
   w.pdf = next->delta || !next_event_ ? 0.f : next->pdf;
   w.last = light_receiver(*scene_, pick_, s);
   w.ray = s.spawn(next->wi);

@@ -2,14 +2,18 @@
 //
 // Source: pbrt-v4's subsurface material for the parameters. Light walks through the medium as
 // through any other, so that every integrator sees it and any shape will do, thin ones included;
-// each scattering event counts as a bounce. pbrt-v4 uses a profile instead (photon beam diffusion,
-// Habel, Christensen, Jarosz 2013), which knows no shape and counts a single bounce.
+// each scattering event counts as a bounce. With the method "diffusion" it goes from where it
+// enters straight to where it leaves, two bounces in all, by the profile of a half space (photon
+// beam diffusion, Habel, Christensen, Jarosz 2013, as pbrt-v4): faster, and wrong where the body is
+// thin, sharply bent or clear.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/coat.h"
 #include "core/dielectric_bsdf.h"
 #include "core/dielectric_index.h"
+#include "core/diffusion/boundary_bsdf.h"
 #include "core/material_base.h"
 #include "core/media/homogeneous_medium.h"
 #include "core/media/presets.h"
@@ -18,6 +22,8 @@
 
 namespace pssmlt {
 namespace {
+
+constexpr std::array<std::string_view, 2> methods = {"walk", "diffusion"};
 
 struct Coefficients {
   Rgb absorption{0.f}, scattering{0.f};  // [1/m]
@@ -57,12 +63,26 @@ float scattering_albedo(float seen, float eta, float back, float g) {
   return low / (1.f - g + g * low);
 }
 
+std::unique_ptr<const DiffusionProfile> profile_of(const MediumPoint& m, float g, float eta) {
+  std::array<DiffusingMedium, 3> media;
+  for (int i = 0; i < 3; ++i)
+    media[static_cast<size_t>(i)] = {static_cast<double>(m.scattering[i]),
+                                     static_cast<double>(m.extinction[i] - m.scattering[i]),
+                                     static_cast<double>(g), static_cast<double>(eta)};
+  return std::make_unique<const DiffusionProfile>(media);
+}
+
 class Subsurface final : public BumpedMaterial {
  public:
   static constexpr const char* summary = "dielectric boundary around a medium that scatters";
 
   explicit Subsurface(Parameters& p)
-      : BumpedMaterial(p), roughness_(p), eta_(read_dielectric_index(p)) {
+      : BumpedMaterial(p),
+        roughness_(p),
+        eta_(read_dielectric_index(p, "eta", 1.33f)),
+        diffuses_(p.choice("method", methods[0], methods,
+                           "how light goes beneath: a walk through the medium, or the diffusion "
+                           "profile of a half space") == methods[1]) {
     const float g = p.number("g", 0.f, "", "mean cosine of scattering inside, in (-1, 1)");
     const float scale = p.number("scale", 1.f, "", "factor of the coefficients inside");
     Coefficients c = read_coefficients(p, g);
@@ -72,16 +92,23 @@ class Subsurface final : public BumpedMaterial {
     const MediumPoint point{scale * (c.absorption + c.scattering), scale * c.scattering, Rgb(0.f)};
     // The measured coefficients are reduced ones: scattering that is worth as much in all
     // directions alike.
-    interior_ = std::make_shared<const HomogeneousMedium>(point, p.has("name") ? 0.f : g);
+    const float mean_cosine = p.has("name") ? 0.f : g;
+    if (diffuses_) {
+      profile_ = profile_of(point, mean_cosine, eta_);
+    } else {
+      interior_ = std::make_shared<const HomogeneousMedium>(point, mean_cosine);
+    }
   }
 
   const Bsdf* bsdf(const Hit& hit, MaterialNumbers, BsdfStorage& storage) const override {
     const vec2 alpha = roughness_.alpha(hit);
     if (!std::isfinite(alpha.x) || !std::isfinite(alpha.y)) return invalid_bsdf(storage);
+    if (profile_) return make_entry_bsdf(*profile_, Ggx(alpha.x, alpha.y), storage);
     return make_dielectric_bsdf(eta_, Ggx(alpha.x, alpha.y), storage);
   }
   MaterialTraits traits() const override {
     const bool matched = eta_ == 1.f;
+    if (diffuses_) return {.diffuse_lobes = true, .delta_lobes = roughness_.may_be_smooth()};
     return {.diffuse_lobes = !matched && roughness_.may_be_rough(),
             .delta_lobes = matched || roughness_.may_be_smooth(),
             .transmits = true};
@@ -99,7 +126,9 @@ class Subsurface final : public BumpedMaterial {
 
   RoughnessTextures roughness_;
   float eta_;
+  bool diffuses_;  // instead of walking
   std::shared_ptr<const Medium> interior_;
+  std::unique_ptr<const DiffusionProfile> profile_;
 };
 
 Rgb Subsurface::read(Parameters& p, const char* name, const Rgb& fallback, SpectrumUse use,
@@ -148,7 +177,15 @@ Coefficients Subsurface::from_reflectance(Parameters& p, const Rgb& reflectance,
   Coefficients c;
   for (int i = 0; i < 3; ++i) {
     if (!(mfp[i] > 0.f)) p.fail("mfp", "\"mfp\" must be positive");
-    const float albedo = scattering_albedo(std::clamp(reflectance[i], 0.f, 0.999f), eta_, back, g);
+    const float seen = std::clamp(reflectance[i], 0.f, 0.999f);
+    const float albedo =
+        diffuses_
+            ? static_cast<float>(diffusing_albedo(static_cast<double>(seen), static_cast<double>(g),
+                                                  static_cast<double>(eta_)))
+            : scattering_albedo(seen, eta_, back, g);
+    if (diffuses_ && albedo > 0.9999f)
+      p.note("no profile gives back a reflectance of " + std::to_string(seen) +
+             " at this g: the brightest there is is used");
     c.scattering[i] = albedo / mfp[i];
     c.absorption[i] = (1.f - albedo) / mfp[i];
   }

@@ -39,7 +39,7 @@ Arrival fly_through_media(const Scene& scene, const Ray& ray, const Medium* medi
                           const EdgeNumbers& u, Surface& at, Flight& flight);
 inline Arrival fly(const Scene& scene, const Ray& ray, const Medium* medium, const EdgeNumbers& u,
                    Surface& at, Flight& flight) {
-  at.time = ray.time;
+  at.arrive(ray.time);
   if (scene.features().media) return fly_through_media(scene, ray, medium, u, at, flight);
   return scene.intersect(ray, u.alpha, at.hit) ? Arrival::surface : Arrival::nothing;
 }

@@ -55,6 +55,13 @@ class Mis {
             bounded(f(cos_start / density) * (delta ? back : from.connect + back))};
   }
 
+  // After a way beneath a surface (core/path/way_beneath.h) from the vertex with `from`: pdf of
+  // going beneath [1] and, of the reverse, of leaving toward the vertex before [1/sr]. No strategy
+  // joins its ends, and the density of the other end is the same both ways.
+  MisPartial beneath(const MisPartial& from, double pdf, double pdf_reverse) const {
+    return {0.0, bounded(f(1.0 / pdf) * (from.connect + f(pdf_reverse) * from.deeper))};
+  }
+
   // Sum of ratios for a subpath that ends in `at`: density of its last vertex from the other side
   // [1/m^2, or a ratio where the edge's length cancels] and of the one before [1/sr].
   double join(const MisPartial& at, double density, double pdf_reverse) const {

@@ -1,6 +1,7 @@
 #include "core/path/subpath.h"
 
 #include "core/path/flight.h"
+#include "core/path/way_beneath.h"
 
 namespace pssmlt {
 SubpathTracer::SubpathTracer(const Scene& scene, const PathLimits& limits, Mis mis, LightPick pick)
@@ -83,11 +84,12 @@ void SubpathTracer::walk(PrimarySample& u, const Side& side, PathExpression::Sta
   w.state = state;
   if (!(w.begin > 0.f)) return;
   for (int k = 1; k <= side.max_vertices; ++k) {
-    if (!advance(u, side, k, w, path)) return;
+    const bool emerges = w.beneath != nullptr;
+    if (emerges ? !emerge(k, w, path) : !advance(u, side, k, w, path)) return;
     PathVertex& v = path[k];
     if (k > limits_.max_bounces) return;
     const MaterialNumbers m = material_numbers(u, side.stream, k, scene_.features());
-    if (!v.surface.shade(scene_, v.surface.wo, m)) return;
+    if (!emerges && !v.surface.shade(scene_, v.surface.wo, m)) return;
     if (k == 1 && !side.camera()) v.mis = first_mis(side, path, v, w.transmittance);
     v.connectible = v.surface.connectible();
     v.dispersed |= v.surface.disperses(scene_);
@@ -129,6 +131,24 @@ bool SubpathTracer::advance(PrimarySample& u, const Side& side, int k, Walk& w,
   return true;
 }
 
+bool SubpathTracer::emerge(int k, Walk& w, Subpath& path) const {
+  PathVertex& v = path.push();
+  const PathVertex& from = path[k - 1];
+  const Rgb factor = go_beneath(scene_, from.surface, *w.beneath, w.numbers, w.pdf, v.surface);
+  w.beneath = nullptr;
+  if (is_black(factor)) {
+    path.pop();
+    return false;
+  }
+  w.throughput *= factor;
+  v.throughput = w.throughput;
+  v.state = w.state;
+  v.mis = mis_.beneath(from.mis, static_cast<double>(w.pdf), static_cast<double>(w.pdf_reverse));
+  v.connectible = false;
+  v.dispersed = path.dispersed_before(k);
+  return true;
+}
+
 PathExpression::State SubpathTracer::step(const Side& side, PathExpression::State s,
                                           bool delta) const {
   return side.camera() ? limits_.paths.camera_step(s, delta) : limits_.paths.light_step(s, delta);
@@ -151,6 +171,8 @@ bool SubpathTracer::scatter(PrimarySample& u, const Side& side, const Surface& s
   w.pdf = s->pdf;
   w.pdf_reverse = s->pdf_reverse;
   w.delta = s->delta;
+  w.beneath = s->beneath;
+  w.numbers = n;
   w.ray = surface.spawn(s->wi);
   w.medium = surface.medium_toward(s->wi);
   return side.camera() ? !limits_.paths.camera_dead(w.state) : !limits_.paths.light_dead(w.state);

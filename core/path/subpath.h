@@ -6,6 +6,7 @@
 
 #include "core/path/light_draw.h"
 #include "core/path/mis.h"
+#include "core/path/numbers.h"
 #include "core/path/path_expression.h"
 #include "core/path/surface.h"
 #include "core/sampling/primary_sample.h"
@@ -126,6 +127,9 @@ class SubpathTracer {
     float pdf = 0.f, pdf_reverse = 0.f;
     bool delta = false;
     PathExpression::State state = 0;
+    // Not null: no edge, but a way beneath the surface, which goes by these numbers.
+    const DiffusionProfile* beneath = nullptr;
+    ScatterNumbers numbers;
   };
   void walk(PrimarySample& u, const Side& side, PathExpression::State state, Subpath& path) const;
   // The ray that leaves the endpoint, in the medium there.
@@ -136,6 +140,8 @@ class SubpathTracer {
   MisPartial next_mis(const Walk& w, const PathVertex& from, float cos_end, float distance2) const;
   // Follows the walk's ray to vertex k; false where the subpath ends.
   bool advance(PrimarySample& u, const Side& side, int k, Walk& w, Subpath& path) const;
+  // The same beneath the surface; false where nothing leaves it.
+  bool emerge(int k, Walk& w, Subpath& path) const;
   Escape escape(const Walk& w, const Subpath& path, int k) const;
   bool scatter(PrimarySample& u, const Side& side, const Surface& surface, int k, Walk& w) const;
   PathExpression::State step(const Side& side, PathExpression::State s, bool delta) const;

@@ -1,5 +1,7 @@
 #include "core/path/surface.h"
 
+#include "core/diffusion/boundary_bsdf.h"
+
 namespace pssmlt {
 
 bool Surface::shade(const Scene& scene, const vec3& wo_world, MaterialNumbers u) {
@@ -16,14 +18,30 @@ bool Surface::shade(const Scene& scene, const vec3& wo_world, MaterialNumbers u)
   return bsdf_ != nullptr && wo_local_.z != 0.f;
 }
 
+void Surface::emerge(const Scene& scene, const Hit& at, const DiffusionProfile& profile,
+                     float side) {
+  hit = at;
+  in_medium_ = false;
+  emerging_ = true;
+  frame_ = scene.shading_frame(hit);
+  wo_local_ = {0.f, 0.f, side};
+  wo = side * frame_.n;
+  bsdf_ = make_exit_bsdf(profile, side, storage_);
+}
+
 float Surface::adjoint_cosine(const vec3& wi) const {
+  return entering_correction() * std::abs(glm::dot(wi, hit.ng));
+}
+
+float Surface::entering_correction() const {
   const float wo_ng = std::abs(glm::dot(wo, hit.ng));
-  if (!(wo_ng > 0.f)) return 0.f;
-  return std::abs(wo_local_.z) * std::abs(glm::dot(wi, hit.ng)) / wo_ng;
+  return wo_ng > 0.f ? std::abs(wo_local_.z) / wo_ng : 0.f;
 }
 
 float Surface::cosine_factor(const vec3& wi, const vec3& local, Transport mode) const {
-  return mode == Transport::radiance ? std::abs(local.z) : adjoint_cosine(wi);
+  if (mode == Transport::radiance) return std::abs(local.z);
+  // The other half of the correction was made where the path went beneath.
+  return emerging_ ? std::abs(glm::dot(wi, hit.ng)) : adjoint_cosine(wi);
 }
 
 Rgb Surface::f_cos(const vec3& wi, Transport mode) const {
@@ -44,19 +62,20 @@ Surface::Scattering Surface::scattering(const vec3& wi, Transport mode) const {
   if (is_black(f)) return s;
   s.f_cos = in_medium_ ? f * point_.scattering : f * cosine_factor(wi, local, mode);
   s.pdf = bsdf_->pdf(wo_local_, local);
-  s.pdf_reverse = bsdf_->pdf(local, wo_local_);
+  s.pdf_reverse = bsdf_->pdf(local, emerging_ ? beneath : wo_local_);
   return s;
 }
 
 std::optional<ScatterSample> Surface::sample(float u_lobe, const vec2& u, Transport mode) const {
   const auto s = bsdf_->sample(wo_local_, u_lobe, u, mode);
   if (!s || (s->wi.z == 0.f && !in_medium_)) return std::nullopt;
-  ScatterSample out{frame_.to_world(s->wi), s->weight, s->pdf, s->pdf_reverse, s->delta,
-                    s->transmitted,         s->eta};
+  ScatterSample out{frame_.to_world(s->wi), s->weight, s->pdf,    s->pdf_reverse, s->delta,
+                    s->transmitted,         s->eta,    s->beneath};
   if (in_medium_) {
     out.weight *= point_.scattering;
   } else if (mode == Transport::importance) {
-    out.weight *= adjoint_cosine(out.wi) / std::abs(s->wi.z);
+    out.weight *=
+        s->beneath ? entering_correction() : cosine_factor(out.wi, s->wi, mode) / std::abs(s->wi.z);
   }
   return out;
 }

@@ -21,6 +21,7 @@ struct ScatterSample {
   bool delta = false;
   bool transmitted = false;
   float eta = 1.f;
+  const DiffusionProfile* beneath = nullptr;  // as BsdfSample's
 };
 
 // Not copyable: the Bsdf lives inside.
@@ -46,6 +47,17 @@ class Surface {
     medium = through;
     in_medium_ = false;
   }
+  // Before it is filled by an edge.
+  void arrive(float ray_time) {
+    time = ray_time;
+    emerging_ = false;
+  }
+  // Makes this the point `at`, where light that diffused beneath the surface leaves on the side of
+  // the shading normal (1 or -1); in place of shade().
+  void emerge(const Scene& scene, const Hit& at, const DiffusionProfile& profile, float side);
+  bool emerging() const { return emerging_; }
+  // Of the direction given to shade(): the side of the shading normal, 1 or -1.
+  float side() const { return wo_local_.z < 0.f ? -1.f : 1.f; }
   bool in_medium() const { return in_medium_; }
   // Light is scattered by its wavelength here, and the path has one from here on.
   bool disperses(const Scene& scene) const {
@@ -98,7 +110,7 @@ class Surface {
   // This point as a point of the light that the surface carries.
   EndpointPoint light_point() const { return {hit.position, hit.ng, hit.uv, hit.element}; }
   // The shading normal, turned to the side of the direction given to shade().
-  vec3 facing_normal() const { return wo_local_.z < 0.f ? -frame_.n : frame_.n; }
+  vec3 facing_normal() const { return side() * frame_.n; }
   const Bsdf* bsdf() const { return bsdf_; }
   const Frame& frame() const { return frame_; }
 
@@ -109,12 +121,15 @@ class Surface {
  private:
   // Factor of importance transport toward wi, |cos(ns, wi)| included.
   float adjoint_cosine(const vec3& wi) const;
+  // The part of it that belongs to wo.
+  float entering_correction() const;
   // What f_cos() of a surface multiplies the Bsdf with.
   float cosine_factor(const vec3& wi, const vec3& local, Transport mode) const;
   Frame frame_;
   vec3 wo_local_{0.f};
   const Bsdf* bsdf_ = nullptr;
   bool in_medium_ = false;
+  bool emerging_ = false;
   MediumPoint point_;
   BsdfStorage storage_;
 };

@@ -289,7 +289,7 @@ AttributeEnd
 inline std::vector<AgreementScene> agreement_scenes() {
   return {lens_scene(),    glass_scene(),  rough_scene(),   parallel_scene(),
           normals_scene(), window_scene(), layered_scene(), fog_scene(),
-          cloud_scene(),   moving_scene(), lamps_scene()};
+          cloud_scene(),   moving_scene(), lamps_scene(),   diffusing_scene()};
 }
 
 }  // namespace pssmlt::test

@@ -68,6 +68,24 @@ TEST(Subsurface, GivesBackTheReflectanceThatWasAsked) {
   }
 }
 
+// A profile gives back what was asked by construction, at each angle: what is not reflected enters,
+// and what leaves under a white sky is the profile's integral, the rest of a thousandth cut off.
+TEST(Subsurface, DiffusesTheReflectanceThatWasAsked) {
+  for (const double mu : {1., .4}) {
+    for (const double reflectance : {.2, .8}) {
+      const double f = static_cast<double>(fresnel_dielectric(static_cast<float>(mu), 1.33f));
+      const Mean m = mean_of(
+          half_space(mu,
+                     fmt::format("\"string method\" \"diffusion\" \"rgb reflectance\" [ {0} {0} "
+                                 "{0} ] \"rgb mfp\" [ .01 .02 .005 ]",
+                                 reflectance)),
+          256);
+      EXPECT_NEAR(m.value, f + (1.0 - f) * reflectance, z_limit * m.error + 1e-3) << mu;
+      EXPECT_LT(m.error, .003);
+    }
+  }
+}
+
 // Each path is white if the channels scatter alike, and the mean is if they do not.
 TEST(Subsurface, WithoutAbsorptionLosesNothing) {
   for (const auto& [scattering, spp] : {std::pair{"5 5 5", 64.0}, {"4 5 4.5", 512.0}}) {
