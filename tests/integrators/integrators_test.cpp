@@ -235,8 +235,8 @@ TEST(Integrators, SayWhatIsNotApplied) {
       {R"("randomwalk" "integer maxdepth" 3)", "stands for \"path\""}};
   for (const auto& [integrator, message] : told) {
     const BuiltScene built = build_text({std::string("Integrator ") + integrator + " WorldBegin"});
-    EXPECT_TRUE(std::ranges::any_of(built.log, [&](const std::string& line) {
-      return line.find(message) != std::string::npos;
+    EXPECT_TRUE(std::ranges::any_of(built.log, [&, text = message](const std::string& line) {
+      return line.find(text) != std::string::npos;
     })) << integrator;
   }
   EXPECT_THROW(build_text({"Integrator \"sppm\" \"integer maxdpeth\" 3 WorldBegin"}), Error);
