@@ -4,6 +4,8 @@
 // caustics and for light through small openings; blind to point, spot and distant lights seen
 // through specular surfaces only (and to nothing else that bdpt sees).
 
+#include <utility>
+
 #include "core/integrator.h"
 #include "core/path/dispersion.h"
 #include "core/path/flight.h"

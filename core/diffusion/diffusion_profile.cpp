@@ -83,6 +83,7 @@ float DiffusionProfile::density(int component, float r) const {
 
 float DiffusionProfile::sample_radius(int component, float u) const {
   const Channel& c = channels_[index(component)];
+  if (c.radius.size() < 2) return 0.f;
   const float power = u * c.below.back();
   const auto found =
       static_cast<size_t>(std::ranges::upper_bound(c.below, power) - c.below.begin());

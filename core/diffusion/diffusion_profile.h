@@ -28,7 +28,7 @@ class DiffusionProfile {
   // Radii are drawn by the profile of one component.
   float share(int component) const { return share_[index(component)]; }  // sum is 1
   float reach(int component) const { return channels_[index(component)].radius.back(); }  // [m]
-  float sample_radius(int component, float u) const;                                      // [m]
+  float sample_radius(int component, float u) const;  // [m]; 0 of one that is black
   // Of points of the plane around the entry [1/m^2].
   float density(int component, float r) const;
   // False if nothing ever leaves.

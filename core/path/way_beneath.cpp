@@ -1,6 +1,8 @@
 #include "core/path/way_beneath.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/diffusion/diffusion_profile.h"
 
@@ -16,7 +18,8 @@ template <typename Share>
 int choose(Share share, float& u) {
   int i = 0;
   for (; i < 2 && u >= share(i); ++i) u -= share(i);
-  u = std::clamp(u / share(i), 0.f, one_minus_epsilon);
+  // Rounding may get to what has no share; nothing can be drawn from that.
+  u = share(i) > 0.f ? std::clamp(u / share(i), 0.f, one_minus_epsilon) : 0.f;
   return i;
 }
 

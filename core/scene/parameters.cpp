@@ -301,8 +301,8 @@ void Parameters::check_all_read() const {
                                  suggestion(unread->name, asked_));
 }
 
-void Parameters::resolver_note(const std::string& message) const {
-  resolver_->note(owner_ + ": " + message);
+void Parameters::note(const std::string& message) const {
+  if (resolver_ != nullptr) resolver_->note(owner_ + ": " + message);
 }
 
 void Parameters::fail(const std::string& message) const {

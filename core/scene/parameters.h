@@ -135,9 +135,7 @@ class Parameters {
   [[noreturn]] void fail(std::string_view name, const std::string& message) const;
 
   // A line for the user: what was read but is not followed, and why. Nothing while describing.
-  void note(const std::string& message) const {
-    if (resolver_ != nullptr) resolver_note(message);
-  }
+  void note(const std::string& message) const;
 
   const Location& where() const { return where_; }
   const std::string& owner() const { return owner_; }
@@ -160,7 +158,6 @@ class Parameters {
   const Parameter* find(std::string_view name, std::initializer_list<ParameterType> accepted);
   // The same for exactly one value (a point is one value of three numbers).
   const Parameter* find_one(std::string_view name, std::initializer_list<ParameterType> accepted);
-  void resolver_note(const std::string& message) const;
   [[noreturn]] void fail_at(const Parameter& p, const std::string& message) const;
   void check_finite(const Parameter& p) const;
   template <typename V>

@@ -76,6 +76,7 @@ TEST(DiffusionProfile, ExtremesAreFinite) {
   const DiffusionProfile black({{{0.0, 1.0, 0.0, 1.5}, {0.0, 0.0, 0.0, 1.5}, {}}});
   EXPECT_FALSE(black.shines());
   EXPECT_EQ(black.value(0.1f), Rgb(0.f));
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(black.sample_radius(c, 0.7f), 0.f);
   const DiffusionProfile white(
       {{{1e6, 0.0, 0.99, 1.0}, {1e-6, 0.0, -0.9, 2.5}, {1.0, 1e-9, 0.0, 1.0}}});
   for (int c = 0; c < 3; ++c) {
