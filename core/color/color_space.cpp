@@ -77,12 +77,14 @@ const glm::dmat3& rec709_from_xyz() {
   return matrix;
 }
 
+dvec3 white_xyz(double temperature) {
+  return temperature >= 4000. ? xyz_of(daylight(temperature))
+                              : emission_xyz(blackbody_samples(temperature), Outside::Clamp);
+}
+
 glm::dmat3 white_balance(double temperature) {
-  const dvec3 seen = temperature >= 4000.
-                         ? xyz_of(daylight(temperature))
-                         : emission_xyz(blackbody_samples(temperature), Outside::Clamp);
-  const glm::dmat3 adapted = bradford(seen, d65_white()) * glm::inverse(rec709_from_xyz());
-  return rec709_from_xyz() * adapted;
+  const glm::dmat3 adapt = bradford(white_xyz(temperature), d65_white());
+  return rec709_from_xyz() * adapt * glm::inverse(rec709_from_xyz());
 }
 
 const glm::dmat3* rec709_from(std::string_view color_space, SpectrumUse use) {

@@ -23,8 +23,11 @@ const glm::dmat3* rec709_from(std::string_view color_space, SpectrumUse use);
 
 const std::vector<std::string>& color_space_names();
 
-// Linear Rec.709 in which light of a temperature [K] becomes the white of Rec.709 (Bradford):
-// CIE daylight from 4000 K on, a black body below. Throws nothing; temperature in 100 K to 25000 K.
+// XYZ, Y = 1, of light of a temperature [K]: CIE daylight from 4000 K on, a black body below.
+// Throws nothing; temperature in 100 K to 25000 K.
+dvec3 white_xyz(double temperature);
+
+// Linear Rec.709 in which the light of white_xyz becomes the white of Rec.709 (Bradford).
 glm::dmat3 white_balance(double temperature);
 
 }  // namespace pssmlt

@@ -61,7 +61,7 @@ struct BuiltScene {
   // multiplies it back on output, so that its fixed-point range fits every scene.
   double radiance_scale = 1.0;
   // The written picture is balance * radiance * exposure: the time of the exposure * iso / 100, and
-  // the white balance of the film's sensor in linear Rec.709.
+  // the colours and the white balance of the film's sensor in linear Rec.709.
   double exposure = 1.0;
   glm::dmat3 balance{1.0};
   std::optional<uint64_t> seed;  // Option "seed" of the scene
