@@ -12,6 +12,7 @@
 #include "core/scene/builder_film.h"
 #include "core/scene/builder_hashes.h"
 #include "core/scene/builder_layers.h"
+#include "core/scene/media_check.h"
 #include "core/scene/scene_builder.h"
 
 namespace pssmlt {
@@ -167,6 +168,8 @@ void SceneBuilder::finish_features() {
   if (f.lights == 0 && !f.emitting_media)
     built_.log.push_back("warning: the scene has no light: the picture is black");
   if (scene_->primitives_.empty()) built_.log.push_back("warning: the scene has no shapes");
+  if (std::string line = contradicting_media(*scene_); !line.empty())
+    built_.log.push_back(std::move(line));
 }
 
 BuiltScene SceneBuilder::build() {
