@@ -38,6 +38,20 @@ class Bsdf {
   virtual Rgb eval(const vec3& wo, const vec3& wi, Transport mode) const = 0;
   // Density of sample(wo) at wi [1/sr].
   virtual float pdf(const vec3& wo, const vec3& wi) const = 0;
+  // What a connection needs: eval, pdf(wo, wi) and pdf(wi, wo); all zero where eval is black. The
+  // quickest Bsdfs answer in one call.
+  struct BothWays {
+    Rgb f{0.f};
+    float pdf = 0.f, pdf_reverse = 0.f;
+  };
+  virtual BothWays both_ways(const vec3& wo, const vec3& wi, Transport mode) const {
+    BothWays v;
+    v.f = eval(wo, wi, mode);
+    if (is_black(v.f)) return v;
+    v.pdf = pdf(wo, wi);
+    v.pdf_reverse = pdf(wi, wo);
+    return v;
+  }
   // Uses u_lobe and u (all in [0,1)); nullopt where sampling fails (absorbed, below horizon).
   virtual std::optional<BsdfSample> sample(const vec3& wo, float u_lobe, const vec2& u,
                                            Transport mode) const = 0;

@@ -21,6 +21,9 @@ struct Hit {
   uint32_t element = 0;   // triangle of a mesh, 0 otherwise
   vec2 where{0.f};        // of a mesh: weights of the triangle's second and third vertex
   const Primitive* primitive = nullptr;
+  // Asked of Shape::fill(): false where nothing reads dpdu, dpdv, dndu and dndv, which then are
+  // zero.
+  bool with_derivatives = true;
 };
 
 }  // namespace pssmlt

@@ -43,6 +43,9 @@ class Material {
   virtual MaterialTraits traits() const = 0;
   // What bends the shading frame (pbrt's "displacement" and "normalmap"); null: nothing.
   virtual const ShadingNormals* shading_normals() const { return nullptr; }
+  // True if scattering depends on none of the hit's dpdu, dpdv, dndu and dndv, textures included,
+  // and looks the same turned around the shading normal: hits are then found without derivatives.
+  virtual bool isotropic() const { return false; }
   // The medium behind surfaces of this material, where scenes name none; null: what they name.
   virtual std::shared_ptr<const Medium> interior() const { return nullptr; }
 };

@@ -18,6 +18,7 @@ class BumpedMaterial : public Material {
 
  protected:
   explicit BumpedMaterial(Parameters& p);
+  bool bumped() const { return shading_normals_ != nullptr; }
 
  private:
   std::shared_ptr<const ShadingNormals> shading_normals_;
@@ -33,6 +34,8 @@ class RoughnessTextures {
   std::optional<vec2> constant() const {
     return is_constant_ ? std::optional(constant_) : std::nullopt;
   }
+  // For Material::isotropic(): the same width everywhere and in all directions.
+  bool isotropic() const { return is_constant_ && constant_.x == constant_.y; }
   // Whether lobes are wide and whether they are mirrors; both where textures decide.
   bool may_be_rough() const { return !is_constant_ || !is_smooth_; }
   bool may_be_smooth() const { return !is_constant_ || is_smooth_; }

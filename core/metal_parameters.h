@@ -18,6 +18,7 @@ class Metal {
   Metal(Parameters& p, const std::string& prefix, float outside);
   // At a point; nullopt where a texture failed. Black: nothing is reflected there.
   std::optional<MetalReflectance> at(const Hit& hit) const;
+  bool reads_derivatives() const { return reflectance_ && reflectance_->reads_derivatives(); }
 
  private:
   FresnelCurve read_curve(Parameters& p, const std::string& prefix);

@@ -56,7 +56,8 @@ class Shape {
     (void)ray, (void)t_min;
     return std::nullopt;
   }
-  // Completes position, error, ng, ns, dpdu, dpdv, dndu, dndv, uv of hit.element at `where`.
+  // Completes position, error, ng, ns, dpdu, dpdv, dndu, dndv, uv of hit.element at `where`; the
+  // derivatives only if hit.with_derivatives, else they may be left zero.
   // Positions are recomputed from the surface's own parameters, not from the ray. Sides (ng, ns)
   // already follow ReverseOrientation and mirroring transforms.
   virtual void fill(const vec2& where, Hit& hit) const = 0;

@@ -20,6 +20,8 @@ class Texture {
   virtual T evaluate(const Hit& hit) const = 0;
   // True if evaluate() does not depend on the hit: callers may fold the value.
   virtual bool constant() const { return false; }
+  // False if evaluate() asks the hit for none of dpdu, dpdv, dndu, dndv.
+  virtual bool reads_derivatives() const { return !constant(); }
 };
 
 template <typename T>

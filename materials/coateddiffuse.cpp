@@ -169,6 +169,9 @@ class CoatedDiffuse final : public BumpedMaterial {
             .delta_lobes = roughness_.may_be_smooth(),
             .draws_numbers = medium_.scatters()};
   }
+  bool isotropic() const override {
+    return !bumped() && roughness_.isotropic() && !reflectance_->reads_derivatives();
+  }
 
  private:
   // Widths of the tabulated coats, where they follow a texture; the first is smooth.

@@ -69,6 +69,9 @@ class Conductor final : public BumpedMaterial {
   MaterialTraits traits() const override {
     return {.diffuse_lobes = roughness_.may_be_rough(), .delta_lobes = roughness_.may_be_smooth()};
   }
+  bool isotropic() const override {
+    return !bumped() && roughness_.isotropic() && !metal_.reads_derivatives();
+  }
 
  private:
   RoughnessTextures roughness_;

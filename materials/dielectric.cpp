@@ -29,6 +29,7 @@ class Dielectric final : public BumpedMaterial {
             .transmits = true,
             .disperses = index_.varies()};
   }
+  bool isotropic() const override { return !bumped() && roughness_.isotropic(); }
 
  private:
   float eta(const MaterialNumbers& u) const {

@@ -16,6 +16,10 @@ class DiffuseBsdf final : public Bsdf {
   float pdf(const vec3& wo, const vec3& wi) const override {
     return wo.z * wi.z > 0.f ? std::abs(wi.z) * inv_pi : 0.f;
   }
+  BothWays both_ways(const vec3& wo, const vec3& wi, Transport) const override {
+    if (!(wo.z * wi.z > 0.f)) return {};
+    return {reflectance_ * inv_pi, std::abs(wi.z) * inv_pi, std::abs(wo.z) * inv_pi};
+  }
   std::optional<BsdfSample> sample(const vec3& wo, float, const vec2& u, Transport) const override {
     if (wo.z == 0.f) return std::nullopt;
     const vec3 up = cosine_hemisphere(u);
@@ -49,6 +53,7 @@ class Diffuse final : public BumpedMaterial {
     return storage.make<DiffuseBsdf>(reflectance);
   }
   MaterialTraits traits() const override { return {.diffuse_lobes = true}; }
+  bool isotropic() const override { return !bumped() && !reflectance_->reads_derivatives(); }
 
  private:
   std::shared_ptr<const Texture<Rgb>> reflectance_;

@@ -79,6 +79,9 @@ class DiffuseTransmission final : public BumpedMaterial {
     return storage.make<DiffuseTransmissionBsdf>(r, t);
   }
   MaterialTraits traits() const override { return {.diffuse_lobes = true, .transmits = true}; }
+  bool isotropic() const override {
+    return !bumped() && !reflectance_->reads_derivatives() && !transmittance_->reads_derivatives();
+  }
 
  private:
   std::shared_ptr<const Texture<Rgb>> reflectance_, transmittance_;

@@ -53,6 +53,7 @@ class ThinDielectric final : public BumpedMaterial {
     return storage.make<ThinDielectricBsdf>(eta_);
   }
   MaterialTraits traits() const override { return {.delta_lobes = true, .transmits = true}; }
+  bool isotropic() const override { return !bumped(); }
 
  private:
   float eta_;

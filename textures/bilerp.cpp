@@ -23,6 +23,7 @@ class Bilerp final : public Texture<T> {
     return (1.f - st.y) * ((1.f - st.x) * v00_ + st.x * v10_) +
            st.y * ((1.f - st.x) * v01_ + st.x * v11_);
   }
+  bool reads_derivatives() const override { return false; }
 
  private:
   TextureMapping2D mapping_;

@@ -96,8 +96,8 @@ class ImageMap final : public Texture<T> {
       p.fail("encoding", e.what());
     }
     try {
-      const bool pyramid = filter_ == TextureFilter::trilinear || filter_ == TextureFilter::ewa;
-      image_ = load<T>(path, encoding, pyramid, std::is_same_v<T, float> ? channel : "");
+      image_ =
+          load<T>(path, encoding, reads_derivatives(), std::is_same_v<T, float> ? channel : "");
     } catch (const Error& e) {
       p.fail("filename", e.what());
     }
@@ -110,6 +110,10 @@ class ImageMap final : public Texture<T> {
     st.x = wrapped(st.x, image_->width(), wraps_[0]);
     st.y = wrapped(st.y, image_->height(), wraps_[1]);
     return adjusted(lookup(st, hit));
+  }
+  // For footprints, which choose among an image's sizes.
+  bool reads_derivatives() const override {
+    return filter_ == TextureFilter::trilinear || filter_ == TextureFilter::ewa;
   }
 
  private:

@@ -24,6 +24,10 @@ class Mix final : public Texture<T> {
   bool constant() const override {
     return first_->constant() && second_->constant() && amount_->constant();
   }
+  bool reads_derivatives() const override {
+    return first_->reads_derivatives() || second_->reads_derivatives() ||
+           amount_->reads_derivatives();
+  }
 
  private:
   std::shared_ptr<const Texture<T>> first_, second_;

@@ -17,6 +17,9 @@ class Product final : public Texture<T> {
     return first_->evaluate(hit) * second_->evaluate(hit);
   }
   bool constant() const override { return first_->constant() && second_->constant(); }
+  bool reads_derivatives() const override {
+    return first_->reads_derivatives() || second_->reads_derivatives();
+  }
 
  private:
   std::shared_ptr<const Texture<T>> first_, second_;

@@ -17,6 +17,9 @@ class Scale final : public Texture<T> {
     return texture_->evaluate(hit) * scale_->evaluate(hit);
   }
   bool constant() const override { return texture_->constant() && scale_->constant(); }
+  bool reads_derivatives() const override {
+    return texture_->reads_derivatives() || scale_->reads_derivatives();
+  }
 
  private:
   std::shared_ptr<const Texture<T>> texture_;

@@ -23,6 +23,7 @@ class VertexColor final : public Texture<T> {
       return vertex_color(hit);
     }
   }
+  bool reads_derivatives() const override { return false; }
 };
 
 }  // namespace

@@ -14,6 +14,15 @@ inline float next_up(float x) {
   return std::bit_cast<float>(x > 0.f ? bits + 1u : bits - 1u);
 }
 inline float next_down(float x) { return -next_up(-x); }
+// One of the two by the sign of `toward`, x itself where that is 0. Without branches, which no
+// processor could foresee.
+inline float next_toward(float x, float toward) {
+  const auto bits = std::bit_cast<uint32_t>(x),
+             sign = std::bit_cast<uint32_t>(toward) & 0x80000000u;
+  const uint32_t moved = bits + 1u - ((bits ^ sign) >> 31 << 1);
+  const uint32_t next = x == 0.f ? sign | 1u : moved;
+  return toward == 0.f ? x : std::bit_cast<float>(next);
+}
 
 struct Ray {
   vec3 origin{0.f};
@@ -30,10 +39,7 @@ inline vec3 offset_origin(const vec3& position, const vec3& error, const vec3& n
   const float d = glm::dot(glm::abs(ng), error);
   const vec3 offset = glm::dot(direction, ng) < 0.f ? -d * ng : d * ng;
   vec3 p = position + offset;
-  for (int i = 0; i < 3; ++i) {
-    if (offset[i] > 0.f) p[i] = next_up(p[i]);
-    if (offset[i] < 0.f) p[i] = next_down(p[i]);
-  }
+  for (int i = 0; i < 3; ++i) p[i] = next_toward(p[i], offset[i]);
   return p;
 }
 

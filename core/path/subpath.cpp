@@ -172,7 +172,7 @@ bool SubpathTracer::scatter(PrimarySample& u, const Side& side, const Surface& s
   w.pdf_reverse = s->pdf_reverse;
   w.delta = s->delta;
   w.beneath = s->beneath;
-  w.numbers = n;
+  if (s->beneath) w.numbers = n;
   w.ray = surface.spawn(s->wi);
   w.medium = surface.medium_toward(s->wi);
   return side.camera() ? !limits_.paths.camera_dead(w.state) : !limits_.paths.light_dead(w.state);

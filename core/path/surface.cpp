@@ -29,19 +29,19 @@ void Surface::emerge(const Scene& scene, const Hit& at, const DiffusionProfile& 
   bsdf_ = make_exit_bsdf(profile, side, storage_);
 }
 
-float Surface::adjoint_cosine(const vec3& wi) const {
-  return entering_correction() * std::abs(glm::dot(wi, hit.ng));
-}
-
 float Surface::entering_correction() const {
   const float wo_ng = std::abs(glm::dot(wo, hit.ng));
   return wo_ng > 0.f ? std::abs(wo_local_.z) / wo_ng : 0.f;
 }
 
-float Surface::cosine_factor(const vec3& wi, const vec3& local, Transport mode) const {
-  if (mode == Transport::radiance) return std::abs(local.z);
+inline float Surface::cosine_factor(const vec3& wi, const vec3& local, Transport mode) const {
+  return mode == Transport::radiance ? std::abs(local.z) : importance_cosine(wi);
+}
+
+float Surface::importance_cosine(const vec3& wi) const {
   // The other half of the correction was made where the path went beneath.
-  return emerging_ ? std::abs(glm::dot(wi, hit.ng)) : adjoint_cosine(wi);
+  const float cosine = std::abs(glm::dot(wi, hit.ng));
+  return emerging_ ? cosine : entering_correction() * cosine;
 }
 
 Rgb Surface::f_cos(const vec3& wi, Transport mode) const {
@@ -58,11 +58,11 @@ Surface::Scattering Surface::scattering(const vec3& wi, Transport mode) const {
   Scattering s;
   const vec3 local = frame_.to_local(wi);
   if (local.z == 0.f && !in_medium_) return s;
-  const Rgb f = bsdf_->eval(wo_local_, local, mode);
-  if (is_black(f)) return s;
-  s.f_cos = in_medium_ ? f * point_.scattering : f * cosine_factor(wi, local, mode);
-  s.pdf = bsdf_->pdf(wo_local_, local);
-  s.pdf_reverse = bsdf_->pdf(local, emerging_ ? beneath : wo_local_);
+  const Bsdf::BothWays v = bsdf_->both_ways(wo_local_, local, mode);
+  if (is_black(v.f)) return s;
+  s.f_cos = in_medium_ ? v.f * point_.scattering : v.f * cosine_factor(wi, local, mode);
+  s.pdf = v.pdf;
+  s.pdf_reverse = emerging_ ? bsdf_->pdf(local, beneath) : v.pdf_reverse;
   return s;
 }
 

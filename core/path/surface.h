@@ -120,7 +120,7 @@ class Surface {
 
  private:
   // Factor of importance transport toward wi, |cos(ns, wi)| included.
-  float adjoint_cosine(const vec3& wi) const;
+  float importance_cosine(const vec3& wi) const;
   // The part of it that belongs to wo.
   float entering_correction() const;
   // What f_cos() of a surface multiplies the Bsdf with.

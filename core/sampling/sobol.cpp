@@ -1,12 +1,30 @@
 #include "core/sampling/sobol.h"
 
 #include <array>
+#ifdef __SSSE3__
+#include <tmmintrin.h>
+#endif
 
 namespace pssmlt {
 namespace {
 
 // Four numbers that the compiler keeps in one register (gcc and clang).
 using Four = uint32_t __attribute__((vector_size(16)));
+
+// Half a byte at a time by table, where the processor can; the same bits either way.
+Four reverse_four(const Four& x) {
+#ifdef __SSSE3__
+  const __m128i mirrored = _mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15);
+  const __m128i swap = _mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12);
+  const __m128i half = _mm_set1_epi8(15);
+  const __m128i v = _mm_shuffle_epi8(reinterpret_cast<__m128i>(x), swap);
+  const __m128i low = _mm_shuffle_epi8(mirrored, _mm_and_si128(v, half));
+  const __m128i high = _mm_shuffle_epi8(mirrored, _mm_and_si128(_mm_srli_epi16(v, 4), half));
+  return reinterpret_cast<Four>(_mm_or_si128(_mm_slli_epi16(low, 4), high));
+#else
+  return reverse_bits(x);
+#endif
+}
 
 // Primitive polynomials and initial direction numbers of dimensions 2 to 4 (Joe & Kuo 2008,
 // new-joe-kuo-6.21201); the first dimension is the van der Corput sequence.
@@ -80,7 +98,7 @@ NumberBlock sobol_block(uint64_t seed, uint64_t index, uint32_t block) {
       scramble_upward(reverse_bits(static_cast<uint32_t>(index)), static_cast<uint32_t>(key));
   // The four coordinates in step: one instruction each for all of them.
   Four x = coordinates(shuffled);
-  x = reverse_bits(scramble_upward(x, scramble_seeds(key)));
+  x = reverse_four(scramble_upward(x, scramble_seeds(key)));
   return as_block(x);
 }
 

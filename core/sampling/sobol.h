@@ -5,6 +5,8 @@
 // blocks are independent of one another.
 #pragma once
 
+#include <type_traits>
+
 #include "core/sampling/primary_sample.h"
 
 namespace pssmlt {
@@ -24,8 +26,12 @@ Word scramble_upward(Word x, Word seed) {
 
 template <typename Word>
 Word reverse_bits(Word x) {
-  x = x >> 16 | x << 16;
-  x = (x >> 8 & 0x00FF00FFu) | (x & 0x00FF00FFu) << 8;
+  if constexpr (std::is_same_v<Word, uint32_t>) {
+    x = __builtin_bswap32(x);
+  } else {
+    x = x >> 16 | x << 16;
+    x = (x >> 8 & 0x00FF00FFu) | (x & 0x00FF00FFu) << 8;
+  }
   x = (x >> 4 & 0x0F0F0F0Fu) | (x & 0x0F0F0F0Fu) << 4;
   x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
   return (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;

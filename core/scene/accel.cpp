@@ -93,6 +93,7 @@ void transform_hit(const Transform& to_render, double rounding, Hit& hit) {
   // The inverse transpose keeps normals on their side of the surface, mirrored or not.
   hit.ng = glm::normalize(to_render.normal(hit.ng));
   hit.ns = glm::normalize(to_render.normal(hit.ns));
+  if (!hit.with_derivatives) return;
   hit.dpdu = to_render.vector(hit.dpdu);
   hit.dpdv = to_render.vector(hit.dpdv);
   hit.dndu = to_render.normal(hit.dndu);
@@ -300,6 +301,7 @@ void Accel::fill(const RawHit& raw, Hit& hit) const {
   hit.distance = raw.t;
   hit.primitive = raw.primitive;
   hit.element = raw.element;
+  hit.with_derivatives = raw.primitive->derivatives;
   raw.primitive->shape->fill(raw.where, hit);
   if (raw.instance >= 0) {
     const Instance& instance = impl_->instances[static_cast<size_t>(raw.instance)];

@@ -85,6 +85,8 @@ std::unique_ptr<Primitive> SceneBuilder::build_primitive(const ShapeDescription&
     primitive->bounds_medium = true;
   }
   primitive->alpha = read_alpha(shape, resolver_);
+  primitive->derivatives = !primitive->material->isotropic() ||
+                           (primitive->alpha && primitive->alpha->reads_derivatives());
   const FoundPlugin found = Registry::instance().find("shape", shape.type, shape.where);
   std::optional<ParameterSet> changed =
       scale_edges(shape.parameters, scene_options_.displacement_edge_scale);

@@ -178,7 +178,8 @@ Rgb Scene::background(const vec3& direction) const {
 
 Frame Scene::shading_frame(const Hit& hit) const {
   const ShadingNormals* const normals = hit.primitive->material->shading_normals();
-  return normals ? normals->frame(hit) : Frame::from_tangent(hit.ns, hit.dpdu);
+  if (normals) return normals->frame(hit);
+  return hit.with_derivatives ? Frame::from_tangent(hit.ns, hit.dpdu) : Frame(hit.ns);
 }
 
 }  // namespace pssmlt

@@ -31,6 +31,7 @@ struct Primitive {
   const Light* light = nullptr;                 // emission of this surface, or null
   const MediumInterface* media = nullptr;       // on its sides; null: as before the surface
   bool transmits = false;                       // light may pass to the other side
+  bool derivatives = true;                      // of hits are read (Hit::with_derivatives)
   bool bounds_medium = false;                   // cannot be seen and only separates media
   std::string name;                             // for messages: `sphere "file:line"`
 };

@@ -211,6 +211,10 @@ void MeshShape::fill(const vec2& where, Hit& hit) const {
   const float l2 = length_squared(ns);
   hit.ns = l2 > 0.f && std::isfinite(l2) ? ns / std::sqrt(l2) : hit.ng;
   hit.uv = interpolated_uv(hit.element, b);
+  if (!hit.with_derivatives) {
+    hit.dpdu = hit.dpdv = hit.dndu = hit.dndv = vec3(0.f);
+    return;
+  }
   set_derivatives(hit.element, c, hit);
   if (!tangents_.empty()) set_tangent(hit.element, b, hit);
 }

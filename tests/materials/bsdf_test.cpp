@@ -98,6 +98,20 @@ TEST_P(BsdfTest, SampleAgreesWithEvalAndPdf) {
   }
 }
 
+TEST_P(BsdfTest, BothWaysAreTheirParts) {
+  for (const Transport mode : {Transport::radiance, Transport::importance}) {
+    for (const vec3& wo : views()) {
+      for (const vec3& wi : views()) {
+        const Bsdf::BothWays v = bsdf_->both_ways(wo, wi, mode);
+        EXPECT_EQ(v.f, bsdf_->eval(wo, wi, mode));
+        if (is_black(v.f)) continue;
+        EXPECT_EQ(v.pdf, bsdf_->pdf(wo, wi));
+        EXPECT_EQ(v.pdf_reverse, bsdf_->pdf(wi, wo));
+      }
+    }
+  }
+}
+
 // The integral of g over directions with theta and phi in the ranges, by Gauss's rule of two
 // points along theta (the integrand has a slope at the poles) and the midpoint rule along phi.
 double integrate(const std::function<double(const vec3&)>& g, double t0, double t1, double p0,
