@@ -84,8 +84,7 @@ Companions make_companions(const RenderOptions& o, const BuiltScene& scene,
                            const RenderResult& result) {
   Companions c;
   if (wants(o, "albedo") || wants(o, "normal") || wants(o, "depth")) {
-    c.first_hit =
-        render_auxiliary(*scene.scene, *scene.raster_map, o.render.seed, o.render.threads);
+    c.first_hit = render_auxiliary(scene, o.render.seed, o.render.threads);
   }
   if (wants(o, "error") && !result.variance.data.empty()) c.error = error_image(result.variance);
   return c;

@@ -60,8 +60,8 @@ void set(Image& image, int pixel, const vec3& value) {
 
 }  // namespace
 
-AuxiliaryImages render_auxiliary(const Scene& scene, const RasterMap& map, uint64_t seed,
-                                 int threads) {
+AuxiliaryImages render_auxiliary(const BuiltScene& scene, uint64_t seed, int threads) {
+  const RasterMap& map = *scene.raster_map;
   const ivec2 size = map.frame().crop_size();
   AuxiliaryImages images{Image(size.x, size.y, 3), Image(size.x, size.y, 3),
                          Image(size.x, size.y, 1)};
@@ -70,10 +70,10 @@ AuxiliaryImages render_auxiliary(const Scene& scene, const RasterMap& map, uint6
   WorkerPool(threads).run(size.y, [&](int y, int) {
     for (int x = 0; x < size.x; ++x) {
       const int pixel = y * size.x + x;
-      const PixelSums sums = render_pixel(scene, map, seed, pixel);
+      const PixelSums sums = render_pixel(*scene.scene, map, seed, pixel);
       if (!(sums.weight > 0.f)) continue;
       set(images.albedo, pixel, sums.albedo / sums.weight);
-      set(images.normal, pixel, sums.normal / sums.weight);
+      set(images.normal, pixel, vec3(scene.normal_axes * dvec3(sums.normal / sums.weight)));
       if (sums.hit_weight > 0.f) {
         images.depth.data[static_cast<size_t>(pixel)] = sums.depth / sums.hit_weight;
       }

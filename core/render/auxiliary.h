@@ -2,14 +2,14 @@
 #pragma once
 
 #include "core/image/image.h"
-#include "core/sampling/raster_map.h"
-#include "core/scene/scene.h"
+#include "core/scene/builder.h"
 
 namespace pssmlt {
 
 struct AuxiliaryImages {
   Image albedo;  // hemispherical albedo of the first surface [1]; 0 where the ray leaves the scene
-  Image normal;  // its shading normal, world axes, mean over the pixel (not renormalised)
+  Image normal;  // its shading normal, mean over the pixel (not renormalised), in the world's axes
+                 // or the camera's, as the scene's film says
   Image depth;   // distance along the ray [m], mean over the rays that hit; 0 where none does
 };
 
@@ -17,8 +17,7 @@ inline constexpr int auxiliary_rays = 16;  // per pixel
 
 // Averages over the pixel's filter as the picture does. Deterministic; `threads` as in
 // RenderSettings.
-AuxiliaryImages render_auxiliary(const Scene& scene, const RasterMap& map, uint64_t seed,
-                                 int threads);
+AuxiliaryImages render_auxiliary(const BuiltScene& scene, uint64_t seed, int threads);
 // Standard deviation of the picture's luminance [its unit]: the square root of `variance` (see
 // RenderResult) averaged over 5 x 5 pixels, since one difference of halves says little. Channel Y.
 Image error_image(const Image& variance);

@@ -33,6 +33,14 @@ Transform SceneBuilder::find_to_render() const {
   return Transform::translate(-camera_from_world.inverse().point(dvec3(0.0)));
 }
 
+glm::dmat3 SceneBuilder::find_normal_axes(bool of_camera) const {
+  Transform to_axes = to_render_.inverse();
+  if (of_camera) to_axes = description_.camera.transform.start * to_axes;
+  const glm::dmat3 normals = glm::transpose(glm::dmat3(to_axes.inverse_matrix()));
+  // A camera's scale is no part of its axes.
+  return normals / std::cbrt(std::abs(glm::determinant(normals)));
+}
+
 void SceneBuilder::read_options() {
   if (scene_options_.seed) built_.seed = *scene_options_.seed;
   if (description_.accelerator.given()) {
@@ -55,6 +63,7 @@ void SceneBuilder::build_raster() {
   built_.raster_map = make_raster_map(film.frame, made, parameters);
   built_.output = film.output;
   built_.film_layers = film.layers;
+  built_.normal_axes = find_normal_axes(film.camera_normals);
   built_.max_component = film.max_component;
   built_.exposure = film.sensor.exposure;
   built_.balance = film.sensor.balance;

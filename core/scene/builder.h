@@ -56,6 +56,9 @@ struct BuiltScene {
   std::string output;  // the film's file name, "" if it gives none
   // Layers that the film wants beside the picture where the format holds any (film "gbuffer").
   std::vector<std::string> film_layers;
+  // From render space to the axes of a layer of normals: the world's, or the camera's if the film
+  // says so. Acts on normals.
+  glm::dmat3 normal_axes{1.0};
   float max_component = infinity;  // per sample [W/(m^2 sr)], infinity unless asked for
   // Power of two near the scene's mean radiance: the film accumulates value / radiance_scale and
   // multiplies it back on output, so that its fixed-point range fits every scene.

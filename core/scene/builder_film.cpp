@@ -74,13 +74,11 @@ void read_output(Parameters& film, FilmDirective& settings, std::vector<std::str
 }
 
 // What denoisers want, of pbrt-v4's "gbuffer".
-void read_layers(Parameters& film, FilmDirective& settings, std::vector<std::string>& log) {
+void read_layers(Parameters& film, FilmDirective& settings) {
   constexpr std::array<std::string_view, 2> spaces = {"camera", "world"};
   const std::string space = film.choice("coordinatesystem", spaces[0], spaces, "of the normals");
   settings.layers = {"albedo", "normal", "depth", "variance"};
-  if (space == spaces[0]) {
-    log.push_back("film: normals are written in world space, not in the camera's");
-  }
+  settings.camera_normals = space == spaces[0];
 }
 
 // The buckets of pbrt-v4's "spectral" would need light by wavelength; its RGB picture does not.
@@ -101,7 +99,7 @@ FilmDirective read_film(const SceneDescription& scene, const BuildOptions& optio
   }
   Parameters film(scene.film.parameters, scene.film.where, "film \"" + type + "\"", nullptr);
   FilmDirective settings;
-  if (type == "gbuffer") read_layers(film, settings, log);
+  if (type == "gbuffer") read_layers(film, settings);
   if (type == "spectral") read_buckets(film, log);
   RasterFrame& frame = settings.frame;
   read_size(film, options, frame);

@@ -12,6 +12,7 @@ struct FilmDirective {
   float max_component = infinity;
   FilmSensor sensor;
   std::vector<std::string> layers;  // beside the picture, named as --aux names them
+  bool camera_normals = false;      // a layer of normals has the camera's axes, not the world's
 };
 
 // Reads Film with the command line's size, scale and crop. Throws Error (located) on sizes and

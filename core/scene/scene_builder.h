@@ -42,6 +42,9 @@ class SceneBuilder {
  private:
   friend class ObjectsBuilder;
   Transform find_to_render() const;
+  // From render space, for normals: to the world, or to the camera when its shutter opens
+  // (BuiltScene::normal_axes).
+  glm::dmat3 find_normal_axes(bool of_camera) const;
   void read_options();
   void build_raster();
   void build_camera();

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/vocabulary/page.h"
 #include "tests/vocabulary/vocabulary.h"
 
 namespace pssmlt::test {
@@ -40,7 +41,7 @@ TEST(Vocabulary, PageSaysWhatTheProgramDoes) {
   make_files(folder.path());
   std::vector<Fate> fates;
   for (const Word& word : words) fates.push_back(try_word(word, folder.path()));
-  const std::string now = page(words, fates);
+  const std::string now = page(words, fates, read_reasons(root / "tests/vocabulary/unseen.txt"));
   const fs::path file = root / "docs/vocabulary.md";
   if (std::getenv("PSSMLT_WRITE_VOCABULARY") != nullptr) std::ofstream(file) << now;
   const std::string there = read(file);
@@ -67,7 +68,7 @@ std::set<std::string> reviewed() {
 }
 
 // Whoever refuses a word says so in the list, with the message and a reason, and strikes out what
-// works.
+// works. The message says where the word stands.
 TEST(Vocabulary, RefusalsAreReviewed) {
   const TemporaryFolder folder;
   make_files(folder.path());
@@ -75,24 +76,14 @@ TEST(Vocabulary, RefusalsAreReviewed) {
   std::set<std::string> refused;
   for (const Word& word : read_words(root / "tests/vocabulary/pbrt-v4.txt")) {
     const Fate fate = try_word(word, folder.path());
-    if (fate.kind != Fate::refused) continue;
+    if (!fate.refused) continue;
+    EXPECT_TRUE(fate.located) << "line " << word.line << ": " << fate.message;
     const std::string key = word.kind + " " + word.plugin + ": " + fate.message;
     refused.insert(key);
     EXPECT_TRUE(list.contains(key)) << "not in tests/vocabulary/reviewed.txt: " << key;
   }
   for (const std::string& key : list) {
     EXPECT_TRUE(refused.contains(key)) << "no longer refused: " << key;
-  }
-}
-
-// A word that is refused says why, where it stands.
-TEST(Vocabulary, RefusalsAreLocated) {
-  const TemporaryFolder folder;
-  make_files(folder.path());
-  for (const Word& word : read_words(root / "tests/vocabulary/pbrt-v4.txt")) {
-    const Fate fate = try_word(word, folder.path());
-    EXPECT_TRUE(fate.kind != Fate::refused || fate.located)
-        << "line " << word.line << ": " << fate.message;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/render/auxiliary.h"
 #include "tests/core/render/session_support.h"
+#include "tests/support/render_text.h"
 
 namespace pssmlt {
 namespace {
@@ -50,8 +51,8 @@ TEST(Output, WhatCannotBeWrittenIsRescued) {
 
 TEST(Auxiliary, ShowsTheFirstSurface) {
   const BuiltScene scene = test::build_small("path", "sobol");
-  const AuxiliaryImages one = render_auxiliary(*scene.scene, *scene.raster_map, 1, 1);
-  const AuxiliaryImages two = render_auxiliary(*scene.scene, *scene.raster_map, 1, 2);
+  const AuxiliaryImages one = render_auxiliary(scene, 1, 1);
+  const AuxiliaryImages two = render_auxiliary(scene, 1, 2);
   EXPECT_EQ(one.albedo.data, two.albedo.data);
   EXPECT_EQ(one.depth.data, two.depth.data);
   // The lowest row sees the floor: its reflectance, its normal, a few metres away.
@@ -61,6 +62,28 @@ TEST(Auxiliary, ShowsTheFirstSurface) {
   EXPECT_NEAR(one.normal.pixel(x, y)[2], 1.f, 1e-3f);
   EXPECT_GT(*one.depth.pixel(x, y), 1.5f);
   EXPECT_LT(*one.depth.pixel(x, y), 6.f);
+}
+
+// A wall across the view along -x; the camera's own view is along +z.
+TEST(Auxiliary, NormalsHaveTheAxesThatTheFilmSays) {
+  const auto normal = [](const std::string& film, const std::string& space) {
+    const BuiltScene scene = test::build_text(
+        {.scene = "Option \"string rendercoordsys\" \"" + space + "\" Film " + film +
+                  " \"integer xresolution\" 2 \"integer yresolution\" 2 LookAt 3 0 0  0 0 0  0 0 1 "
+                  "Camera \"perspective\" \"float fov\" 20 WorldBegin Rotate 90 0 1 0 "
+                  "Shape \"disk\" \"float radius\" 9"});
+    const AuxiliaryImages images = render_auxiliary(scene, 1, 1);
+    const float* const n = images.normal.pixel(1, 1);
+    return vec3(n[0], n[1], n[2]);
+  };
+  for (const char* space : {"cameraworld", "camera", "world"}) {
+    const vec3 of_camera = normal("\"gbuffer\"", space);
+    EXPECT_NEAR(glm::distance(of_camera, vec3(0.f, 0.f, -1.f)), 0.f, 1e-5f) << space;
+    for (const char* film : {"\"rgb\"", "\"gbuffer\" \"string coordinatesystem\" \"world\""}) {
+      const vec3 of_world = normal(film, space);
+      EXPECT_NEAR(glm::distance(of_world, vec3(1.f, 0.f, 0.f)), 0.f, 1e-5f) << space;
+    }
+  }
 }
 
 TEST(Auxiliary, ErrorIsTheRootOfTheMeanVariance) {
