@@ -78,7 +78,7 @@ class RoughDielectricBsdf final : public Bsdf {
 }  // namespace
 
 const Bsdf* make_dielectric_bsdf(float eta, const Ggx& ggx, BsdfStorage& storage) {
-  if (eta == 1.f || ggx.is_smooth()) return storage.make<SmoothDielectricBsdf>(eta);
+  if (refracts_sharply(eta, ggx)) return storage.make<SmoothDielectricBsdf>(eta);
   return storage.make<RoughDielectricBsdf>(eta, ggx);
 }
 

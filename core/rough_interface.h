@@ -15,9 +15,17 @@ inline float refracted_radiance_scale(float eta, Transport mode) {
   return mode == Transport::radiance ? 1.f / (eta * eta) : 1.f;
 }
 
+// True where facets bend light by so little that directions in float do not tell the lobe's shape:
+// half vectors are a difference of directions |eta - 1| apart, known to some 42 roundings, and a lobe of
+// facets of width alpha needs them to alpha (docs/numerics.md). Such a boundary is smooth; what it
+// reflects is less than a share |eta - 1| of diffuse light.
+inline bool refracts_sharply(float eta, const Ggx& ggx) {
+  return ggx.is_smooth() || std::abs(eta - 1.f) * ggx.width() < 0x1p-16f;
+}
+
 class RoughInterface {
  public:
-  // eta: index of the inside over that of the outside, not 1; the lobe must not be smooth.
+  // eta: index of the inside over that of the outside; not where refracts_sharply().
   RoughInterface(float eta, const Ggx& ggx) : eta_(eta), ggx_(ggx) {}
 
   // The one microfacet that connects two directions.

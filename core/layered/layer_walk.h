@@ -46,7 +46,7 @@ class LayerWalk {
   LayerWalk(const LayerMedium& medium, const Ggx& boundary, const LayerBase& base)
       : medium_(medium),
         ggx_(boundary),
-        smooth_(medium.eta == 1.f || boundary.is_smooth()),
+        smooth_(refracts_sharply(medium.eta, boundary)),
         interface_(medium.eta, boundary),
         base_(base) {}
 

@@ -158,7 +158,7 @@ std::optional<BsdfSample> LayeredMirrorBsdf::sample(const vec3& wo, float, const
 
 const Bsdf* make_layered_bsdf(const LayerMedium& medium, const Ggx& boundary, LayerBase base,
                               const MaterialNumbers& u, BsdfStorage& storage) {
-  const bool smooth = medium.eta == 1.f || boundary.is_smooth();
+  const bool smooth = refracts_sharply(medium.eta, boundary);
   if (smooth && base.is_delta()) {
     if (!medium.scatters()) return storage.make<LayeredMirrorBsdf>(medium, base.metal.fresnel());
     // What the medium sends to a mirror under a smooth boundary could not be joined with a

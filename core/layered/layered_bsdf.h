@@ -27,7 +27,7 @@ class LayeredBsdf final : public Bsdf {
   // Of choosing what the boundary reflects itself; 0 < p < 1 unless there is only one.
   float coat_probability(const vec3& wo) const;
   std::optional<vec3> draw(const vec3& wo, float u_lobe, const vec2& u) const;
-  bool smooth() const { return medium_.eta == 1.f || boundary_.is_smooth(); }
+  bool smooth() const { return refracts_sharply(medium_.eta, boundary_); }
   // The lobe that the base's makes above the boundary.
   Ggx seen_lobe() const;
 

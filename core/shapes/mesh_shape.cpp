@@ -12,6 +12,17 @@ namespace {
 // Humphreys 2023, section 6.8.5).
 constexpr float interpolation_error = 7.f * 0x1p-24f / (1.f - 7.f * 0x1p-24f);
 
+// How far off Embree may see the plane of a sliver [m]: it takes the normal from edges that start at
+// the ray, with 4 roundings of the longest edge L, which the height w over that edge divides (4 u L^2
+// / w, docs/numerics.md). No further than w, lest rays start behind what is near; 0 for other shapes.
+float sliver_error(const vec3& p0, const vec3& p1, const vec3& p2, double area) {
+  const float longest = std::sqrt(
+      std::max({length_squared(p1 - p0), length_squared(p2 - p1), length_squared(p0 - p2)}));
+  const float width = 2.f * static_cast<float>(area) / longest;
+  if (!(width < 0.1f * longest)) return 0.f;
+  return std::min(0x1p-22f * longest * (longest / width), width);
+}
+
 dvec3 area_vector(const vec3& p0, const vec3& p1, const vec3& p2) {
   return 0.5 * glm::cross(dvec3(p1) - dvec3(p0), dvec3(p2) - dvec3(p0));
 }
@@ -114,6 +125,10 @@ size_t MeshShape::measure() {
     const double length = glm::length(a);
     if (!(static_cast<float>(length) > 0.f)) continue;
     face_normals_.emplace_back((flip_ ? -a : a) / length);
+    const float sliver =
+        sliver_error(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z], length);
+    if (sliver > 0.f) sliver_errors_.resize(triangles.size());
+    if (sliver > 0.f) sliver_errors_[kept] = sliver;
     sum += length;
     triangles[kept++] = t;
   }
@@ -206,6 +221,7 @@ void MeshShape::fill(const vec2& where, Hit& hit) const {
   hit.position = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
   hit.error =
       interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) + glm::abs(b.z * c.p2));
+  if (!sliver_errors_.empty()) hit.error += sliver_errors_[hit.element];
   const vec3 ns = shading_normal(hit.element, b);
   hit.ng = outside(hit.element, ns);
   const float l2 = length_squared(ns);
@@ -279,6 +295,7 @@ SurfaceSample MeshShape::sample_area(const vec2& u) const {
   s.position = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
   s.error =
       interpolation_error * (glm::abs(b.x * c.p0) + glm::abs(b.y * c.p1) + glm::abs(b.z * c.p2));
+  if (!sliver_errors_.empty()) s.error += sliver_errors_[cell.index];
   s.normal = outside(cell.index, shading_normal(cell.index, b));
   s.uv = interpolated_uv(cell.index, b);
   s.element = cell.index;

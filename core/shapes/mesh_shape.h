@@ -61,6 +61,7 @@ class MeshShape : public Shape {
   // Unit, one a triangle, outside by the order of the indices: kept because every hit needs one,
   // and slivers lose their direction unless it is found in double precision.
   std::vector<vec3> face_normals_;
+  std::vector<float> sliver_errors_;  // [m], by triangle; empty if there are no slivers
   FacingPlane plane_;
   float area_ = 0.f, inverse_area_ = 0.f;  // [m^2], [1/m^2]; both 0 without triangles
   bool flip_ = false;                      // the index order gives the inside
