@@ -122,6 +122,8 @@ bool write_outputs(const RenderOptions& o, const BuiltScene& scene, const Render
   if (result.half[0].data.empty() &&
       (wants(o, "halves") || wants(o, "variance") || wants(o, "error"))) {
     log_warning("halves, variance and error are left out: they need two rounds at least");
+  } else if (result.variance.data.empty() && (wants(o, "variance") || wants(o, "error"))) {
+    log_warning("variance and error are left out: the error is unknown, " + result.error.why);
   }
   return fine;
 }

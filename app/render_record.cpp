@@ -25,8 +25,10 @@ std::optional<double> number(const std::string& text) {
   return fine && std::isfinite(value) && value >= 0.0 ? std::optional(value) : std::nullopt;
 }
 
-std::string error_text(const std::optional<RelativeError>& e) {
-  return e ? fmt::format("relMSE {:.6g} ({:.6g} to {:.6g})", e->value, e->low, e->high) : "unknown";
+std::string error_text(const RenderRecord& r) {
+  const std::optional<RelativeError>& e = r.error;
+  if (e) return fmt::format("relMSE {:.6g} ({:.6g} to {:.6g})", e->value, e->low, e->high);
+  return r.unknown_error.empty() ? "unknown" : "unknown (" + r.unknown_error + ")";
 }
 
 std::optional<RelativeError> read_error(const std::string& text) {
@@ -91,7 +93,11 @@ RenderRecord make_record(const std::string& scene_path, const BuiltScene& scene,
   r.samples = result.samples;
   r.seconds = result.seconds;
   const ErrorEstimate& e = result.error;
-  if (e.known) r.error = RelativeError{e.relative_mse, e.low, e.high};
+  if (e.known) {
+    r.error = RelativeError{e.relative_mse, e.low, e.high};
+  } else {
+    r.unknown_error = e.why;
+  }
   return r;
 }
 
@@ -106,7 +112,7 @@ ImageMetadata to_metadata(const RenderRecord& r) {
                         {"pssmlt:seed", joined(r.parts, &RenderPart::seed)},
                         {"pssmlt:samples", fmt::format("{:.0f}", r.samples)},
                         {"pssmlt:seconds", fmt::format("{:.3f}", r.seconds)},
-                        {"pssmlt:error", error_text(r.error)}};
+                        {"pssmlt:error", error_text(r)}};
   if (r.parts.size() > 1) data.emplace_back("pssmlt:merged", parts_text(r.parts));
   return data;
 }

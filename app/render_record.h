@@ -29,6 +29,7 @@ struct RenderRecord {
   double samples = 0.0;             // of all layers
   double seconds = 0.0;             // wall time, summed over the parts [s]
   std::optional<RelativeError> error;
+  std::string unknown_error;  // why there is none
   // True if all parts are of one technique with the same parameters.
   bool one_technique() const;
 };

@@ -52,15 +52,30 @@ std::string report_text(const json& report) {
   return text;
 }
 
+std::string efficiency_text(const json& e) {
+  const json& p = e["worst_pixels"];
+  return fmt::format(
+      "effective samples a mutation {:.2g} (median of {} regions), {:.2g} in the worst (pixels x "
+      "{} "
+      "to {}, y {} to {}; {:.2g} of the light); between-chain over within-chain variance {:.3g} "
+      "and "
+      "{:.3g}",
+      e["median"].get<double>(), e["regions"].get<int>(), e["worst"].get<double>(), p[0].get<int>(),
+      p[2].get<int>(), p[1].get<int>(), p[3].get<int>(), e["worst_share"].get<double>(),
+      e["between_over_within"]["median"].get<double>(),
+      e["between_over_within"]["worst"].get<double>());
+}
+
 std::string layer_text(const json& layer) {
   const std::string name = layer["name"].get<std::string>();
-  std::string text =
-      fmt::format("{}{} under {}: {:.6g} {} a pixel in {} rounds", name.empty() ? "" : name + ": ",
-                  layer["integrator"].get<std::string>(), layer["sampler"].get<std::string>(),
-                  layer["samples_per_pixel"].get<double>(),
-                  layer["chain"].get<bool>() ? "mutations" : "samples", layer["rounds"].get<int>());
+  std::string text = fmt::format(
+      "{}{} under {}: {:.6g} {} a pixel in {} rounds", name.empty() ? "" : name + ": ",
+      layer["integrator"].get<std::string>(), layer["sampler"].get<std::string>(),
+      layer["samples_per_pixel"].get<double>(),
+      layer["chain"].get<bool>() ? "mutations" : "samples", layer["rounds"].get<int64_t>());
   const std::string report = report_text(layer["report"]);
   if (!report.empty()) text += "\n  " + report;
+  if (layer.contains("efficiency")) text += "\n  " + efficiency_text(layer["efficiency"]);
   return text;
 }
 
@@ -108,6 +123,7 @@ std::string summary_text(const json& s) {
   text += "\n" + error_text(s["error"]);
   text += "\n" + rejected_text(s["rejected"]);
   text += fmt::format("\npeak memory: {}B", format_count(s["memory"]["peak_bytes"].get<double>()));
+  for (const json& warning : s["warnings"]) text += "\nwarning: " + warning.get<std::string>();
   std::string left_out;
   for (const json& what : s["left_out"]) {
     left_out += (left_out.empty() ? "" : ", ") + what.get<std::string>();

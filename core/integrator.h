@@ -31,9 +31,9 @@ class Integrator {
 
   // Work units to run in parallel before round `round` (photon maps, caches): pass() is a pure
   // function of (round, unit, u), merge_passes() runs serially after all of them.
-  virtual int passes(int round) const { return (void)round, 0; }
-  virtual void pass(int round, int unit, PrimarySample& u) { (void)round, (void)unit, (void)u; }
-  virtual void merge_passes(int round) { (void)round; }
+  virtual int passes(int64_t round) const { return (void)round, 0; }
+  virtual void pass(int64_t round, int unit, PrimarySample& u) { (void)round, (void)unit, (void)u; }
+  virtual void merge_passes(int64_t round) { (void)round; }
   // False if f changes between rounds; such an f cannot be the target of a Markov chain.
   virtual bool fixed() const { return true; }
   virtual void save(Archive& archive) const { (void)archive; }

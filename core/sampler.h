@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "core/integrator.h"
 
@@ -15,8 +16,10 @@ namespace pssmlt {
 class RasterMap;
 class Archive;
 
-// Groups for the error estimate: whole rounds or whole chains belong to one group for life.
+// Groups for the error estimate. Either each is an estimate of the whole picture, independent of the
+// others (whole chains, each in one group for life); or they come in pairs (Sampler::pairs_groups()).
 inline constexpr int group_count = 32;
+inline constexpr int pair_count = group_count / 2;
 
 // Where a sampler's splats go (the film's face for one unit of work).
 class SplatSink {
@@ -57,20 +60,25 @@ class Sampler {
   // Default budget [samples or mutations per pixel], from the scene's parameters.
   virtual double default_spp() const = 0;
   // Independent units of a round, and samples or mutations that the whole round makes.
-  virtual int units(int round) const = 0;
-  virtual double samples(int round) const = 0;
+  virtual int units(int64_t round) const = 0;
+  virtual double samples(int64_t round) const = 0;
   // Runs one unit: a pure function of (seed, round, unit, the unit's own state).
-  virtual void run(int round, int unit, SplatSink& sink, Worker& worker) = 0;
+  virtual void run(int64_t round, int unit, SplatSink& sink, Worker& worker) = 0;
   // Planes this sampler's splats use, and the factor that turns plane sums into radiance after
   // `rounds` whole rounds. Pixels may be served in interleaved subsets on large images:
   // subset_of(pixel) says which, scale() the factor there.
   virtual int planes() const { return 1; }
   virtual int subsets() const { return 1; }
   virtual int subset_of(int pixel) const { return (void)pixel, 0; }
-  virtual double scale(int plane, int subset, int rounds) const = 0;
+  virtual double scale(int plane, int subset, int64_t rounds) const = 0;
   // Same for one group alone (the sum over groups of sums is the total): the factor that makes a
   // group's sum an estimate of the whole picture; 0 if the group has nothing yet.
-  virtual double group_scale(int plane, int group, int rounds) const = 0;
+  virtual double group_scale(int plane, int group, int64_t rounds) const = 0;
+  // True: groups 2c and 2c + 1 hold samples of the same part c of the picture's samples (say, some of
+  // its pixels), independent of each other and of other pairs; the sum over c is the picture. The
+  // error is then told from the pairs' differences, which leaves samples of one group free to depend
+  // on each other. group_scale() is that of the group's share of samples all the same.
+  virtual bool pairs_groups() const { return false; }
   // Relative variance of a factor common to all groups (b), to be added to the picture's.
   virtual double scale_relative_variance() const { return 0.0; }
   // True for Markov chains: samples are correlated, per-sample clamping is refused.
@@ -83,6 +91,15 @@ class Sampler {
   virtual bool replay(const std::string& key, Worker& worker) {
     return (void)key, (void)worker, false;
   }
+  // What the summary must say of these settings and of what start() found: reasons why light may be
+  // missing or the error cannot be known.
+  virtual std::vector<std::string> warnings() const { return {}; }
+  // Empty if enough independent samples found light for the sampler's normalisation and its error
+  // to be known; else why they are not. Nothing is then said about the picture's error.
+  virtual std::string unknown_error() const { return ""; }
+  // What to change where the picture's samples are worth too little (core/render/efficiency.h): a
+  // parameter and why, from what has happened so far; "" if the sampler knows nothing to change.
+  virtual std::string remedy() const { return ""; }
   // Acceptance rates, b and its error, ... for the summary and --json.
   virtual void report(nlohmann::json& statistics) const { (void)statistics; }
 };

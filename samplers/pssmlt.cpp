@@ -16,6 +16,7 @@
 #include "core/metropolis/resampling.h"
 #include "core/metropolis/walk_parameters.h"
 #include "core/plugin/plugin.h"
+#include "core/render/error_estimate.h"
 #include "core/sampler.h"
 #include "core/sampling/evaluator.h"
 #include "core/sampling/replay.h"
@@ -30,6 +31,9 @@ constexpr std::array<std::string_view, 1> target_names = {"luminance"};
 constexpr int chains_a_unit = 8;
 constexpr int candidates_a_unit = 1024;
 constexpr int64_t mutations_a_round = 1 << 18;
+// Signs of what is wrong where chains get on too slowly: rates of small steps, and a long stay.
+constexpr double least_acceptance = 0.05, most_acceptance = 0.95;
+constexpr uint64_t stuck_mutations = 1000;
 
 struct Settings {
   StepMix mix;
@@ -70,7 +74,7 @@ struct Chain {
   std::vector<Splat> splats;
   double value = 0.0;
   PixelCredit credit;
-  uint32_t stuck = 0;
+  uint64_t stuck = 0;
 };
 
 // What advance() asks of its host: evaluates the integrator, sends credits to the film.
@@ -119,17 +123,20 @@ class Pssmlt final : public Sampler {
 
   void start(const SamplerContext& context) override;
   double default_spp() const override { return settings_.mutations_per_pixel; }
-  int units(int) const override { return chain_count_ / chains_a_unit; }
-  double samples(int) const override { return double(chain_count_) * steps_; }
-  void run(int round, int unit, SplatSink& sink, Worker& worker) override;
+  int units(int64_t) const override { return chain_count_ / chains_a_unit; }
+  double samples(int64_t) const override { return double(chain_count_) * steps_; }
+  void run(int64_t round, int unit, SplatSink& sink, Worker& worker) override;
   int planes() const override { return settings_.kelemen_weights ? 2 : 1; }
-  double scale(int plane, int subset, int rounds) const override;
-  double group_scale(int plane, int group, int rounds) const override;
+  double scale(int plane, int subset, int64_t rounds) const override;
+  double group_scale(int plane, int group, int64_t rounds) const override;
   double scale_relative_variance() const override;
   bool is_chain() const override { return true; }
   void save(Archive& archive) const override;
   void load(Archive& archive) override;
   bool replay(const std::string& key, Worker& worker) override;
+  std::vector<std::string> warnings() const override;
+  std::string unknown_error() const override;
+  std::string remedy() const override;
   void report(nlohmann::json& statistics) const override;
 
  private:
@@ -164,12 +171,8 @@ void Pssmlt::start(const SamplerContext& context) {
   plan(context.raster_map.frame());
   walk_.seed = mix_bits(context.seed + mix_bits(settings_.seed));
   bootstrap(context);
-  if (bootstrap_.sum > 0.0) {
-    start_chains(context);
-  } else {
-    log_warning("sampler \"pssmlt\": none of " + std::to_string(settings_.bootstrap_samples) +
-                " bootstrap samples found any light; the picture will be black");
-  }
+  if (bootstrap_.sum > 0.0) start_chains(context);
+  for (const std::string& warning : warnings()) log_warning(warning);
   candidates_ = {};
 }
 
@@ -247,7 +250,7 @@ void Pssmlt::start_chain(int chain, uint32_t candidate, Worker& worker) {
   c.value = candidates_[candidate];
 }
 
-void Pssmlt::run(int round, int unit, SplatSink& sink, Worker& worker) {
+void Pssmlt::run(int64_t round, int unit, SplatSink& sink, Worker& worker) {
   if (black()) return;
   const double beta = bootstrap_.mean();
   const CreditRule rule = settings_.kelemen_weights ? CreditRule::kelemen(beta, settings_.mix.large)
@@ -279,14 +282,14 @@ int Pssmlt::group(int chain) const {
   return stretch < group_count / 2 ? 2 * stretch : 2 * stretch - (group_count - 1);
 }
 
-double Pssmlt::scale(int plane, int, int rounds) const {
+double Pssmlt::scale(int plane, int, int64_t rounds) const {
   if (rounds == 0 || black()) return 0.0;
   const double a_mutation = pixels_ / (samples(0) * rounds);
   if (plane == 1) return a_mutation;
   return a_mutation * normalisation().mean() / bootstrap_.mean();
 }
 
-double Pssmlt::group_scale(int plane, int, int rounds) const {
+double Pssmlt::group_scale(int plane, int, int64_t rounds) const {
   return scale(plane, 0, rounds) * group_count;
 }
 
@@ -329,7 +332,7 @@ void Pssmlt::load(Archive& archive) {
     chain.splats = archive.get_array<Splat>();
     chain.value = archive.get<double>();
     chain.credit = archive.get<PixelCredit>();
-    chain.stuck = archive.get<uint32_t>();
+    chain.stuck = archive.get<uint64_t>();
   }
 }
 
@@ -337,6 +340,61 @@ bool Pssmlt::replay(const std::string& key, Worker& worker) {
   if (!numbers_from_text(key, worker.sample)) return false;
   (void)worker.evaluator.evaluate(worker.sample.sample(), worker.splats, worker.workspace);
   return true;
+}
+
+std::vector<std::string> Pssmlt::warnings() const {
+  std::vector<std::string> result;
+  if (black()) {
+    result.push_back("sampler \"pssmlt\": none of " + std::to_string(settings_.bootstrap_samples) +
+                     " bootstrap samples found any light; the picture is black");
+  } else if (contributing_ < least_bootstrap) {
+    result.push_back("sampler \"pssmlt\": " + unknown_error() +
+                     ": brightness and error are unknown; raise \"bootstrapsamples\", or choose an "
+                     "integrator that finds the light more often");
+  }
+  if (settings_.mix.large <= 0.0) {
+    result.emplace_back(
+        "sampler \"pssmlt\": \"largestepprobability\" is 0: no chain gets where small steps do not "
+        "lead, b is the bootstrap's alone, and neither shows in the estimated error");
+  }
+  return result;
+}
+
+std::string Pssmlt::unknown_error() const {
+  if (contributing_ >= least_bootstrap) return "";
+  return "only " + std::to_string(contributing_) + " of " +
+         std::to_string(settings_.bootstrap_samples) +
+         " bootstrap samples found light, fewer than " + std::to_string(least_bootstrap);
+}
+
+// By the commonest causes in the order of how sure their signs are.
+std::string Pssmlt::remedy() const {
+  const WalkTally sum = total();
+  const WalkTally::Kind& large = sum.kinds[static_cast<size_t>(StepKind::large)];
+  WalkTally::Kind small;
+  for (const WalkTally::Kind& k : sum.kinds) {
+    small.proposed += k.proposed;
+    small.accepted += k.accepted;
+  }
+  small.proposed -= large.proposed;
+  small.accepted -= large.accepted;
+  const double rate =
+      small.proposed > 0 ? static_cast<double>(small.accepted) / static_cast<double>(small.proposed)
+                         : 0.5;
+  if (settings_.mix.large <= 0.0) return "\"largestepprobability\", which is 0";
+  if (rate < least_acceptance) {
+    return "smaller steps (\"sigma\" with the kernel \"gaussian\"): they are hardly ever accepted";
+  }
+  if (rate > most_acceptance) {
+    return "larger steps (\"sigma\" with the kernel \"gaussian\"): nearly all are accepted, so "
+           "that "
+           "chains do not get far";
+  }
+  if (sum.longest_stuck >= stuck_mutations) {
+    return "more \"chains\" and \"bootstrapsamples\": a chain stayed in one state for " +
+           std::to_string(sum.longest_stuck) + " mutations";
+  }
+  return "a larger \"largestepprobability\", or more \"chains\"";
 }
 
 void Pssmlt::report(nlohmann::json& statistics) const {

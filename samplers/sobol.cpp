@@ -1,12 +1,12 @@
 // Owen-scrambled Sobol' points (Burley 2020): numbers of a pixel fill their dimensions evenly, four
 // dimensions together, for any number of samples and dimensions; the error of smooth integrands
-// falls faster than 1/sqrt(samples). The light stream is one sequence over the whole picture, so
-// that light subpaths cover the lights evenly. The default sampler.
+// falls faster than 1/sqrt(samples). The light stream is one sequence over a sixteenth of the
+// pixels, so that light subpaths cover the lights evenly. The default sampler.
 //
-// Even and odd groups have scrambles of their own, so that the two half images are independent and
-// their difference tells the error. One scramble for each of the 32 groups would make all groups
-// independent but gives up most of the gain: at 64 samples a scramble each costs a factor 6 in
-// variance on a quarter disk and 100 on a smooth function, two scrambles cost 1.5 and 4.
+// Even and odd sweeps have scrambles of their own, so that the two half images are independent and
+// their difference tells the error. Many scrambles would give up most of the gain: at 64 samples 32
+// of them cost a factor 6 in variance on a quarter disk and 100 on a smooth function, two 1.5
+// and 4.
 #include <array>
 
 #include "core/base/log.h"
@@ -19,8 +19,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> randomizations = {"none", "permutedigits", "fastowen",
                                                             "owen"};
-constexpr uint64_t scrambles = 2;
-static_assert(group_count % scrambles == 0, "a group must have one scramble for life");
 
 class Sobol final : public MemorylessSampler {
  public:
@@ -51,15 +49,15 @@ class Sobol final : public MemorylessSampler {
   }
 
   void fill(const SampleId& id, Stream stream, uint32_t index, NumberBlock& block) const override {
-    const uint64_t scramble = id.sweep % scrambles;
-    const uint64_t nth = id.sweep / scrambles;
-    const uint64_t name = static_cast<uint64_t>(stream) * scrambles + scramble;
+    const uint64_t name = (static_cast<uint64_t>(stream) * 2 + id.half()) | id.turn << 3;
     if (stream == Stream::light) {
-      block = sobol_block(seed() + mix_bits(name + 1), nth * id.pixels + id.pixel, index);
+      const uint64_t sequence = uint64_t{id.part} << 8 | name;
+      block =
+          sobol_block(seed() + mix_bits(sequence + 1), id.nth * id.part_pixels + id.place, index);
       return;
     }
     const uint64_t sequence = (uint64_t{id.pixel} << 8 | name) + 1;
-    block = sobol_block(seed() + mix_bits(sequence * 0x9E3779B97F4A7C15ull), nth, index);
+    block = sobol_block(seed() + mix_bits(sequence * 0x9E3779B97F4A7C15ull), id.nth, index);
   }
 };
 

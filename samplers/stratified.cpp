@@ -1,7 +1,8 @@
 // Jittered strata (Cook 1986, Stochastic Sampling in Computer Graphics): every pair of numbers of a
 // pixel visits each cell of an xsamples x ysamples grid once in xsamples * ysamples samples, in an
 // order of its own for each pair. Beyond that many samples the grid is visited again, in another
-// order. Good for smooth integrands of few dimensions; the strata do not get finer with time.
+// order. Even and odd samples visit grids of their own, so that their difference tells the error.
+// Good for smooth integrands of few dimensions; the strata do not get finer with time.
 #include "core/plugin/plugin.h"
 #include "core/sampling/memoryless.h"
 #include "core/sampling/permutation.h"
@@ -42,17 +43,19 @@ class Stratified final : public MemorylessSampler {
   void fill(const SampleId& id, Stream stream, uint32_t index, NumberBlock& block) const override {
     const uint32_t strata = x_ * y_;
     const uint32_t what = index << 2 | static_cast<uint32_t>(stream);
-    const auto use = static_cast<uint32_t>(RandomUse::sample);
-    const uint64_t visit = id.sweep / strata;  // of the whole grid
-    const auto order_use = static_cast<uint32_t>(RandomUse::decide);
+    const uint32_t use =
+        static_cast<uint32_t>(RandomUse::sample) | static_cast<uint32_t>(id.sweep >> 32) << 8;
+    const uint64_t visit = id.nth / strata;  // of the whole grid
+    const uint32_t order_use =
+        static_cast<uint32_t>(RandomUse::decide) | static_cast<uint32_t>(visit >> 32) << 8;
     const RandomBlock order =
-        philox(seed(), {static_cast<uint32_t>(visit), id.pixel, what, order_use});
+        philox(seed() + id.sequence(), {static_cast<uint32_t>(visit), id.pixel, what, order_use});
     RandomBlock inside{1u << 31, 1u << 31, 1u << 31, 1u << 31};
     if (jitter_) {
       inside = philox(seed(), {static_cast<uint32_t>(id.sweep), id.pixel, what, use});
     }
     for (size_t pair = 0; pair < 2; ++pair) {
-      const uint32_t cell = permute(static_cast<uint32_t>(id.sweep % strata), strata, order[pair]);
+      const uint32_t cell = permute(static_cast<uint32_t>(id.nth % strata), strata, order[pair]);
       block[2 * pair] = place(cell % x_, x_, inside[2 * pair]);
       block[2 * pair + 1] = place(cell / x_, y_, inside[2 * pair + 1]);
     }

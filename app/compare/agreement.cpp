@@ -25,8 +25,22 @@ double common_factor(double relative_variance, size_t group, size_t groups, size
   return 1.0 + sign * std::sqrt(static_cast<double>(groups) * relative_variance);
 }
 
+// Where one technique has twice as many groups as the other, its own are averaged by twos.
+GroupBlocks by_twos(const GroupBlocks& g) {
+  GroupBlocks result = g;
+  result.means.resize(g.means.size() / 2);
+  for (size_t i = 0; i < result.means.size(); ++i) {
+    for (size_t k = 0; k < result.means[i].size(); ++k) {
+      result.means[i][k] = 0.5 * (g.means[2 * i][k] + g.means[2 * i + 1][k]);
+    }
+  }
+  return result;
+}
+
 // An even number of groups: with an odd one out, signs do not sum to zero.
 Rows differences(const GroupBlocks& a, const GroupBlocks& b) {
+  if (a.means.size() >= 2 * b.means.size() && !b.means.empty()) return differences(by_twos(a), b);
+  if (b.means.size() >= 2 * a.means.size() && !a.means.empty()) return differences(a, by_twos(b));
   const size_t groups = std::min(a.means.size(), b.means.size()) / 4 * 4;
   const size_t blocks = groups == 0 ? 0 : std::min(a.means[0].size(), b.means[0].size());
   Rows d(groups, std::vector<double>(blocks));

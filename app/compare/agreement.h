@@ -31,8 +31,7 @@ nlohmann::json to_json(const Agreement& agreement);
 // give Student's t, turned into a normal deviation z of the same tail; the sum of z^2 has as many
 // degrees of freedom as blocks if these are independent. Chains and b make them dependent: the sum
 // is scaled to the number of degrees that the groups' correlations leave (Satterthwaite, with the
-// estimate of tr R^2 that is unbiased for normal numbers). Groups of sobol share scrambles, so that
-// their spread overstates the error: the test then finds less than it could, and alarms less.
+// estimate of tr R^2 that is unbiased for normal numbers).
 Agreement test_agreement(const GroupBlocks& a, const GroupBlocks& b, const std::string& name_a,
                          const std::string& name_b);
 

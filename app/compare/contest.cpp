@@ -92,6 +92,10 @@ void Contest::take_point(Entrant& e, double nominal, bool last) {
   p.estimate_high = estimate.high;
   e.record.points.push_back(std::move(p));
   e.record.statistics = result.statistics;
+  if (last) {
+    const std::string& name = options_.techniques[static_cast<size_t>(e.technique)].name;
+    for (const std::string& warning : result.warnings) log_warning(name + ": " + warning);
+  }
   if (e.keeps_images) keep_image(e, result, last);
 }
 

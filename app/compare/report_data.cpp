@@ -106,6 +106,8 @@ void add_statistics(json& j, const std::vector<RunRecord>& runs) {
   j["non_finite"] = non_finite;
   j["peak_bytes"] = peak;  // of the whole process: techniques share it
   j["film_bytes"] = film;
+  j["warnings"] =
+      runs.empty() ? json::array() : runs.back().statistics.value("warnings", json::array());
   j["acceptance"] = j["b"] = nullptr;
   if (runs.empty() || !runs.front().statistics.contains("layers")) return;
   for (const json& layer : runs.front().statistics["layers"]) {

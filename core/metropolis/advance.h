@@ -58,7 +58,7 @@ struct WalkTally {
 //   void accept()                           the proposal becomes the current state
 template <typename Host>
 void advance(Walker& walker, PrimarySampleOwner& owner, Host& host, const CreditRule& rule,
-             uint64_t count, uint32_t& stuck, WalkTally& tally) {
+             uint64_t count, uint64_t& stuck, WalkTally& tally) {
   double pending = 0.0;  // credit of the current state not handed on yet
   for (uint64_t m = 0; m < count; ++m) {
     const double current = walker.value();
@@ -72,7 +72,7 @@ void advance(Walker& walker, PrimarySampleOwner& owner, Host& host, const Credit
     ++kind.proposed;
     pending += (1.0 - t.acceptance) * rule.visit(current);
     ++stuck;
-    tally.longest_stuck = std::max<uint64_t>(tally.longest_stuck, stuck);
+    tally.longest_stuck = std::max(tally.longest_stuck, stuck);
     if (!t.accepted) {
       if (t.acceptance > 0.0) host.credit_proposed(t.acceptance * worth);
       continue;

@@ -24,12 +24,12 @@ KernelShape shape_of(std::string_view name) {
 
 StepMix read_step_mix(Parameters& p) {
   StepMix mix;
-  mix.large = probability(p, "largestepprobability", 0.3f, "of drawing all numbers anew");
+  mix.large = probability(p, "largestepprobability", 0.3f,
+                          "of drawing all numbers anew; 0 warns: chains then do not meet");
   mix.film = probability(p, "filmprobability", 0.3f, "of small steps: of the film position alone");
   mix.stream = probability(p, "streamprobability", 0.f,
                            "of small steps: of one stream alone (camera, light, connections)");
   mix.range = probability(p, "rangeprobability", 0.f, "of small steps: of some vertices alone");
-  if (mix.large <= 0.0) p.fail("largestepprobability", "\"largestepprobability\" must not be 0");
   if (mix.film + mix.stream + mix.range > 1.0 + 1e-6) {
     p.fail("\"filmprobability\", \"streamprobability\", \"rangeprobability\" exceed 1 in sum");
   }

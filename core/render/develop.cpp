@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/render/relative_denominators.h"
+#include "core/render/replicates.h"
 
 namespace pssmlt {
 namespace {
@@ -22,10 +22,11 @@ std::array<double, 2> half_scales(const std::array<double, group_count>& group) 
 
 }  // namespace
 
-LayerScales::LayerScales(const Sampler& s, int rounds)
+LayerScales::LayerScales(const Sampler& s, int64_t rounds)
     : planes(s.planes()),
       common_variance(s.scale_relative_variance()),
       chain(s.is_chain()),
+      paired(s.pairs_groups()),
       sampler(&s) {
   for (int p = 0; p < planes; ++p) {
     auto& scales = total.emplace_back();
@@ -43,11 +44,15 @@ LayerScales::LayerScales(const Sampler& s, int rounds)
     const double share = half[0][1] / (half[0][0] + half[0][1]);
     balance = share * (1.0 - share);
   }
-  nlohmann::json report;
-  s.report(report);
-  bootstrap_known = !report.is_object() || !report.contains("bootstrap_contributing") ||
-                    report["bootstrap_contributing"].get<double>() >= least_bootstrap;
-  if (!std::isfinite(common_variance)) bootstrap_known = false;
+  unknown = s.unknown_error();
+  if (unknown.empty() && !std::isfinite(common_variance)) unknown = "b is not finite";
+}
+
+double LayerScales::group_samples() const {
+  if (!paired) return group_count;
+  double sweeps = 0.0;
+  for (const double scale : group[0]) sweeps += scale > 0.0 ? 1.0 / scale : 0.0;
+  return sweeps;
 }
 
 Developer::Developer(const Film& film, std::vector<LayerScales> layers, double picture_scale,
@@ -144,7 +149,7 @@ Image Developer::half(int which) const {
 
 Image Developer::variance() const {
   for (const LayerScales& l : layers_) {
-    if (!l.halves_known()) return {};
+    if (!l.halves_known() || !l.unknown.empty()) return {};
   }
   return image([this](int p) { return variance_pixel(p); });
 }
@@ -182,19 +187,17 @@ GroupBlocks Developer::group_blocks() const {
   for (const LayerScales& l : layers_) {
     result.common_variance = std::max(result.common_variance, l.common_variance);
   }
-  for (int g = 0; g < group_count; ++g) {
-    const auto at = static_cast<size_t>(g);
-    const auto empty = [at](const LayerScales& l) { return l.group[0][at] <= 0.0; };
-    if (std::any_of(layers_.begin(), layers_.end(), empty)) continue;
-    auto& means = result.means.emplace_back(pixels.size());
-    for (size_t b = 0; b < pixels.size(); ++b) {
-      for (int l = 0; l < film_.layers(); ++l) {
-        for (int p = 0; p < film_.planes(l); ++p) {
-          means[b] += film_.block_sum(l, p, g, static_cast<int>(b)) *
-                      layers_[static_cast<size_t>(l)].group[static_cast<size_t>(p)][at];
-        }
+  const bool paired =
+      std::any_of(layers_.begin(), layers_.end(), [](const LayerScales& l) { return l.paired; });
+  for (int l = 0; l < film_.layers(); ++l) {
+    const std::vector<Replicate> own =
+        layer_replicates(film_, layers_[static_cast<size_t>(l)], l, paired);
+    if (l == 0) result.means.assign(own.size(), std::vector<double>(pixels.size()));
+    result.means.resize(std::min(result.means.size(), own.size()));
+    for (size_t g = 0; g < result.means.size(); ++g) {
+      for (size_t b = 0; b < pixels.size(); ++b) {
+        result.means[g][b] += own[g].blocks[b] * picture_scale_ / pixels[b];
       }
-      means[b] *= picture_scale_ / pixels[b];
     }
   }
   return result;
@@ -203,7 +206,7 @@ GroupBlocks Developer::group_blocks() const {
 ErrorEstimate Developer::error() const {
   ErrorEstimate estimate;
   for (const LayerScales& l : layers_) {
-    if (!l.bootstrap_known) estimate.why = "too few contributing bootstrap samples";
+    if (!l.unknown.empty()) estimate.why = l.unknown;
   }
   if (!estimate.why.empty()) return estimate;
   estimate_picture_mean(estimate);
@@ -220,20 +223,14 @@ void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
   int least = group_count;
   for (int l = 0; l < film_.layers(); ++l) {
     const LayerScales& layer = layers_[static_cast<size_t>(l)];
-    std::array<GroupMean, group_count> groups;
-    for (int g = 0; g < group_count; ++g) {
-      const auto at = static_cast<size_t>(g);
-      if (layer.group[0][at] <= 0.0) continue;
-      groups[at].weight = 1.0 / layer.group[0][at];
-      for (int p = 0; p < layer.planes; ++p) {
-        double sum = 0.0;
-        for (int b = 0; b < film_.blocks().count(); ++b) sum += film_.block_sum(l, p, g, b);
-        groups[at].mean += sum * layer.group[static_cast<size_t>(p)][at];
-      }
-      groups[at].mean *= picture_scale_ / film_.pixels();
+    std::vector<GroupMean> groups;
+    for (const Replicate& r : layer_replicates(film_, layer, l, false)) {
+      double sum = 0.0;
+      for (const double block : r.blocks) sum += block;
+      groups.push_back({sum * picture_scale_ / film_.pixels(), r.weight});
     }
     const MeanEstimate m = estimate_mean(groups);
-    least = std::min(least, m.groups);
+    least = std::min({least, m.groups, static_cast<int>(layer.group_samples())});
     estimate.mean += m.mean;
     variance += m.variance + layer.common_variance * m.mean * m.mean;
   }

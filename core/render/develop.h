@@ -15,7 +15,7 @@ namespace pssmlt {
 
 // What develop() must know of a layer: its sampler's scales after so many rounds.
 struct LayerScales {
-  LayerScales(const Sampler& sampler, int rounds);
+  LayerScales(const Sampler& sampler, int64_t rounds);
   int planes = 1;
   std::vector<std::vector<double>> total;              // [plane][subset]
   std::vector<std::array<double, 2>> half;             // [plane][half]; 0: the half has nothing yet
@@ -23,9 +23,13 @@ struct LayerScales {
   double balance = 0.25;         // product of the halves' shares of the samples
   double common_variance = 0.0;  // relative, of a factor common to all groups (b)
   bool chain = false;
-  bool bootstrap_known = true;  // enough contributing samples to know b
+  bool paired = false;  // Sampler::pairs_groups()
+  std::string unknown;  // Sampler::unknown_error()
   const Sampler* sampler = nullptr;
   bool halves_known() const { return balance > 0.0; }
+  // Of paired groups: samples a pixel, of which groups say nothing; else as many as there are
+  // groups.
+  double group_samples() const;
 };
 
 // A picture per path length or strategy.
@@ -34,10 +38,11 @@ struct SplitImage {
   Image image;
 };
 
-// Mean luminance of every block of pixels by each group alone: independent estimates.
+// Mean luminance of every block of pixels as independent estimates of it
+// (core/render/replicates.h).
 struct GroupBlocks {
   int edge = 16, across = 1;               // of a block [pixels]; blocks in a row
-  std::vector<std::vector<double>> means;  // [group][block], of the groups that have samples
+  std::vector<std::vector<double>> means;  // [estimate][block]
   double common_variance = 0.0;            // relative, of a factor common to all groups (b)
 };
 
@@ -51,10 +56,12 @@ class Developer {
   Image picture(WorkerPool& pool) const;
   // Empty image if the half has nothing yet.
   Image half(int which) const;
-  // Variance of the picture per pixel and channel, from the difference of the halves.
+  // Variance of the picture per pixel and channel, from the difference of the halves; empty where
+  // these or the sampler's error are not known.
   Image variance() const;
   std::vector<SplitImage> splits(SplitKind kind) const;
   ErrorEstimate error() const;
+  const LayerScales& scales(int layer) const { return layers_[static_cast<size_t>(layer)]; }
   GroupBlocks group_blocks() const;
 
  private:

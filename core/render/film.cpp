@@ -269,9 +269,11 @@ void UnitSink::split(int plane, const PathTag& tag, int pixel, const dvec3& valu
 float UnitSink::filter_number() {
   const uint32_t at = numbers_used_ % 4;
   if (at == 0) {
-    numbers_ = philox(
-        unit_.seed, {numbers_used_ / 4, static_cast<uint32_t>(unit_.unit),
-                     static_cast<uint32_t>(unit_.round), static_cast<uint32_t>(RandomUse::filter)});
+    const auto round = static_cast<uint64_t>(unit_.round);
+    const auto high = static_cast<uint32_t>(round >> 32) << 8;
+    numbers_ = philox(unit_.seed, {numbers_used_ / 4, static_cast<uint32_t>(unit_.unit),
+                                   static_cast<uint32_t>(round),
+                                   static_cast<uint32_t>(RandomUse::filter) | high});
   }
   ++numbers_used_;
   return to_unit(numbers_[at]);

@@ -140,7 +140,8 @@ class UnitSink final : public SplatSink {
   struct Unit {
     int layer = 0;
     uint64_t seed = 0;  // of the layer
-    int round = 0, unit = 0;
+    int64_t round = 0;
+    int unit = 0;
     float clamp = infinity;  // largest component of one sample's value; infinity: none
     double factor = 1.0;     // what the film holds of a value: a power of two near its range
   };

@@ -11,6 +11,7 @@
 
 #include "core/image/image.h"
 #include "core/render/develop.h"
+#include "core/render/efficiency.h"
 #include "core/render/error_estimate.h"
 #include "core/scene/builder.h"
 
@@ -54,10 +55,12 @@ struct RenderResult {
   std::vector<SplitImage> splits;
   ErrorEstimate error;
   StopReason stop = StopReason::samples;
-  bool complete = false;    // every layer has a round: image is meaningful
-  double seconds = 0.0;     // preparation and rounds, earlier runs included [s]
-  double samples = 0.0;     // of all layers
-  std::vector<int> rounds;  // per layer
+  bool complete = false;        // every layer has a round: image is meaningful
+  double seconds = 0.0;         // preparation and rounds, earlier runs included [s]
+  double samples = 0.0;         // of all layers
+  std::vector<int64_t> rounds;  // per layer
+  std::vector<std::optional<ChainEfficiency>> efficiency;  // per layer, of chains
+  std::vector<std::string> warnings;  // what the summary must say about this picture
   nlohmann::json statistics;
 };
 

@@ -1,5 +1,7 @@
 #include "core/render/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,8 +28,8 @@ FilmSettings film_settings(const BuiltScene& scene, const RenderSettings& settin
 // Numbers of an integrator's pass: a function of (seed, round, unit) and the number's address.
 class PassSource final : public NumberSource {
  public:
-  PassSource(uint64_t seed, int round, int unit)
-      : seed_(mix_bits(seed ^ 0x70617373u)),
+  PassSource(uint64_t seed, int64_t round, int unit)
+      : seed_(mix_bits(seed ^ 0x70617373u) + (static_cast<uint64_t>(round) >> 32)),
         round_(static_cast<uint32_t>(round)),
         unit_(static_cast<uint32_t>(unit)) {}
   void fill(Stream stream, uint32_t index, NumberBlock& block) override {
@@ -342,6 +344,23 @@ RenderResult Session::run() {
   return final_result;
 }
 
+void Session::add_efficiency(const Developer& developer, RenderResult& result) const {
+  for (size_t l = 0; l < layers_.size(); ++l) {
+    const int index = static_cast<int>(l);
+    const Sampler& sampler = *layers_[l].layer->sampler;
+    const auto e = chain_efficiency(film_, developer.scales(index), index, layers_[l].samples);
+    result.efficiency.push_back(e);
+    for (std::string& w : sampler.warnings()) result.warnings.push_back(std::move(w));
+    if (!e || !e->collapsed()) continue;
+    const std::string change = sampler.remedy();
+    result.warnings.push_back(fmt::format(
+        "chains hardly move: {:.2g} effective samples a mutation in {}, whose noise the "
+        "number of mutations does not tell; {}",
+        e->worst.effective, to_string(e->worst.pixels),
+        change.empty() ? "try another sampler" : "change " + change));
+  }
+}
+
 RenderResult Session::result(bool final_result) const {
   RenderResult r;
   r.stop = stop_;
@@ -357,6 +376,7 @@ RenderResult Session::result(bool final_result) const {
     for (int h = 0; h < 2; ++h) r.half[h] = d.half(h);
     r.variance = d.variance();
     r.error = d.error();
+    add_efficiency(d, r);
     if (final_result) {
       for (const SplitKind kind : {SplitKind::length, SplitKind::strategy}) {
         for (SplitImage& s : d.splits(kind)) r.splits.push_back(std::move(s));

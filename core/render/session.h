@@ -34,7 +34,7 @@ inline uint64_t layer_seed(uint64_t seed, size_t layer) {
 struct LayerState {
   const Layer* layer = nullptr;
   uint64_t seed = 0;
-  int rounds = 0;
+  int64_t rounds = 0;
   double samples = 0.0;
   double share = 0.0;          // samples this layer gets for every share of the others
   double target = 0.0;         // samples after which it is done; 0: no such budget
@@ -94,6 +94,7 @@ class Session {
   Developer developer() const;
   nlohmann::json statistics(const RenderResult& result) const;
   nlohmann::json layer_statistics(const LayerState& layer) const;
+  void add_efficiency(const Developer& developer, RenderResult& result) const;
   nlohmann::json rejection_statistics() const;
 
   const BuiltScene& scene_;

@@ -64,7 +64,7 @@ void Session::resume() {
   earlier_rays_ = archive.get<RayCounters>();
   for (uint64_t& count : earlier_rejections_) count = archive.get<uint64_t>();
   for (LayerState& l : layers_) {
-    l.rounds = archive.get<int>();
+    l.rounds = archive.get<int64_t>();
     l.samples = archive.get<double>();
     l.layer->sampler->load(archive);
     l.layer->integrator->load(archive);

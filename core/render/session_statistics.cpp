@@ -30,6 +30,17 @@ nlohmann::json error_statistics(const ErrorEstimate& e) {
   return json;
 }
 
+nlohmann::json efficiency_statistics(const ChainEfficiency& e) {
+  const PixelRegion& p = e.worst.pixels;
+  return {{"median", e.median},
+          {"regions", e.regions},
+          {"worst", e.worst.effective},
+          {"worst_pixels", {p.x0, p.y0, p.x1, p.y1}},
+          {"worst_share", e.worst.share},
+          {"between_over_within", {{"median", 1.0 / e.median}, {"worst", 1.0 / e.worst.effective}}},
+          {"collapsed", e.collapsed()}};
+}
+
 }  // namespace
 
 nlohmann::json Session::layer_statistics(const LayerState& layer) const {
@@ -84,7 +95,13 @@ nlohmann::json Session::statistics(const RenderResult& result) const {
   json["resumed"] = resumed_;
   json["samples"] = result.samples;
   json["layers"] = nlohmann::json::array();
-  for (const LayerState& l : layers_) json["layers"].push_back(layer_statistics(l));
+  for (size_t l = 0; l < layers_.size(); ++l) {
+    json["layers"].push_back(layer_statistics(layers_[l]));
+    if (l < result.efficiency.size() && result.efficiency[l]) {
+      json["layers"].back()["efficiency"] = efficiency_statistics(*result.efficiency[l]);
+    }
+  }
+  json["warnings"] = result.warnings;
   RayCounters rays = earlier_rays_;
   for (const RayCounters& r : rays_) {
     rays.nearest += r.nearest;

@@ -11,6 +11,10 @@ namespace {
 
 constexpr int tile_size = 32;  // [pixels]
 constexpr int64_t pixels_a_round = 1 << 21;
+constexpr int edge = 4;  // of the parts' lattice
+static_assert(edge * edge == pair_count);
+constexpr uint32_t turns = 8;  // of small pictures' pixels
+static_assert(turns <= pair_count);
 
 // Adds camera splats to plane 0 and light splats to plane 1; `light` is scratch.
 void add_apart(SplatSink& sink, Splats& splats, const PixelCredit& credit, int group,
@@ -50,9 +54,37 @@ void MemorylessSampler::start(const SamplerContext& context) {
   const int64_t pixels = int64_t{size_.x} * size_.y;
   subsets_ = static_cast<int>((pixels + pixels_a_round - 1) / pixels_a_round);
   subset_pixels_.assign(static_cast<size_t>(subsets_), 0);
+  part_pixels_.assign(static_cast<size_t>(subsets_), {});
   for (int64_t p = 0; p < pixels; ++p) {
-    ++subset_pixels_[static_cast<size_t>(subset_of(static_cast<int>(p)))];
+    const auto subset = static_cast<size_t>(subset_of(static_cast<int>(p)));
+    ++subset_pixels_[subset];
+    ++part_pixels_[subset][sample_id(static_cast<int>(p), 0).part];
   }
+}
+
+SampleId MemorylessSampler::sample_id(int pixel, uint64_t sweep) const {
+  SampleId id;
+  id.pixel = static_cast<uint32_t>(pixel);
+  id.sweep = sweep;
+  id.nth = sweep / 2;
+  const int pixels = size_.x * size_.y;
+  if (pixels < pair_count) {
+    id.turn = id.part = static_cast<uint32_t>((id.nth + id.pixel) % turns);
+    id.nth /= turns;
+    return id;
+  }
+  if (std::min(size_.x, size_.y) < edge) {
+    id.part = id.pixel % pair_count;
+    id.place = id.pixel / pair_count;
+    id.part_pixels = static_cast<uint32_t>((pixels + pair_count - 1) / pair_count);
+    return id;
+  }
+  const ivec2 at(pixel % size_.x, pixel / size_.x);
+  const ivec2 places = (size_ + (edge - 1)) / edge;
+  id.part = static_cast<uint32_t>(at.x % edge + edge * (at.y % edge));
+  id.place = static_cast<uint32_t>(at.x / edge + at.y / edge * places.x);
+  id.part_pixels = static_cast<uint32_t>(places.x) * static_cast<uint32_t>(places.y);
+  return id;
 }
 
 // Diagonals, so that every block of the picture has pixels of all subsets.
@@ -60,21 +92,18 @@ int MemorylessSampler::subset_of(int pixel) const {
   return subsets_ == 1 ? 0 : (pixel % size_.x + pixel / size_.x) % subsets_;
 }
 
-void MemorylessSampler::run(int round, int unit, SplatSink& sink, Worker& worker) {
+void MemorylessSampler::run(int64_t round, int unit, SplatSink& sink, Worker& worker) {
   const int subset = static_cast<int>(subset_of_round(round));
   const int plane_of_light = planes() - 1;
   Splats light;
   const ivec2 low = ivec2(unit % tiles_.x, unit / tiles_.x) * tile_size;
   const ivec2 high = glm::min(low + tile_size, size_);
-  SampleId id;
-  id.pixels = static_cast<uint32_t>(size_.x) * static_cast<uint32_t>(size_.y);
-  id.sweep = static_cast<uint64_t>(round / subsets_);
+  const auto sweep = static_cast<uint64_t>(round / subsets_);
   for (int y = low.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
       const int pixel = y * size_.x + x;
       if (subset_of(pixel) != subset) continue;
-      id.pixel = static_cast<uint32_t>(pixel);
-      run_pixel(id, plane_of_light, sink, worker, light);
+      run_pixel(sample_id(pixel, sweep), plane_of_light, sink, worker, light);
     }
   }
 }
@@ -96,35 +125,47 @@ void MemorylessSampler::run_pixel(const SampleId& id, int plane_of_light, SplatS
 }
 
 // Samples of the whole picture in the first `rounds` rounds.
-uint64_t MemorylessSampler::samples_before(int rounds) const {
+uint64_t MemorylessSampler::samples_before(int64_t rounds) const {
   uint64_t sum = 0;
   for (int s = 0; s < subsets_; ++s) {
-    const int served = rounds / subsets_ + (s < rounds % subsets_ ? 1 : 0);
+    const int64_t served = rounds / subsets_ + (s < rounds % subsets_ ? 1 : 0);
     sum += static_cast<uint64_t>(served) * subset_pixels_[static_cast<size_t>(s)];
   }
   return sum;
 }
 
-double MemorylessSampler::scale(int plane, int subset, int rounds) const {
+double MemorylessSampler::scale(int plane, int subset, int64_t rounds) const {
   if (plane == 0) {
-    const int count = rounds / subsets_ + (subset < rounds % subsets_ ? 1 : 0);
-    return count > 0 ? 1.0 / count : 0.0;
+    const int64_t count = rounds / subsets_ + (subset < rounds % subsets_ ? 1 : 0);
+    return count > 0 ? 1.0 / static_cast<double>(count) : 0.0;
   }
   const uint64_t samples = samples_before(rounds);
   return samples > 0 ? double(size_.x) * size_.y / static_cast<double>(samples) : 0.0;
 }
 
-uint64_t MemorylessSampler::group_samples(int group, int rounds) const {
-  const int sweeps = rounds / subsets_;
-  const int whole = sweeps / group_count + (group < sweeps % group_count ? 1 : 0);
-  uint64_t sum = static_cast<uint64_t>(whole) * static_cast<uint64_t>(size_.x) *
-                 static_cast<uint64_t>(size_.y);
-  if (group != sweeps % group_count) return sum;
-  for (int s = 0; s < rounds % subsets_; ++s) sum += subset_pixels_[static_cast<size_t>(s)];
+uint64_t MemorylessSampler::group_samples(int group, int64_t rounds) const {
+  const int half = group % 2;
+  const auto part = static_cast<size_t>(group / 2);
+  uint64_t sum = 0;
+  const int pixels = size_.x * size_.y;
+  if (pixels < pair_count) {
+    // Turns of the first `mine` samples of a half that are this part's.
+    const auto mine = static_cast<uint64_t>((rounds + 1 - half) / 2);
+    for (uint32_t p = 0; p < static_cast<uint32_t>(pixels) && part < turns; ++p) {
+      const uint64_t first = (part + turns - p % turns) % turns;
+      if (mine > first) sum += (mine - first - 1) / turns + 1;
+    }
+    return sum;
+  }
+  for (int s = 0; s < subsets_; ++s) {
+    const int64_t sweeps = rounds / subsets_ + (s < rounds % subsets_ ? 1 : 0);
+    sum +=
+        static_cast<uint64_t>((sweeps + 1 - half) / 2) * part_pixels_[static_cast<size_t>(s)][part];
+  }
   return sum;
 }
 
-double MemorylessSampler::group_scale(int plane, int group, int rounds) const {
+double MemorylessSampler::group_scale(int plane, int group, int64_t rounds) const {
   (void)plane;  // both planes: pixels a sample of the group
   const uint64_t samples = group_samples(group, rounds);
   return samples > 0 ? double(size_.x) * size_.y / static_cast<double>(samples) : 0.0;
@@ -135,8 +176,7 @@ bool MemorylessSampler::replay(const std::string& key, Worker& worker) {
   if (!parse_sample_name(key, name) || name.name != name_ || name.seed != seed_) return false;
   const int64_t pixels = int64_t{size_.x} * size_.y;
   if (name.pixel < 0 || name.pixel >= pixels || name.index < 0) return false;
-  const SampleId id{static_cast<uint32_t>(name.pixel), static_cast<uint32_t>(pixels),
-                    static_cast<uint64_t>(name.index)};
+  const SampleId id = sample_id(static_cast<int>(name.pixel), static_cast<uint64_t>(name.index));
   Source source(*this, id);
   worker.sample.begin(source);
   worker.sample.set_pixel(static_cast<int>(id.pixel));

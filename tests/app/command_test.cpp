@@ -86,6 +86,28 @@ TEST_F(Command, RendersAndDescribes) {
   }
 }
 
+// With five bootstrap samples nothing is known about b: no number stands for the error anywhere.
+TEST_F(Command, FewBootstrapSamplesLeaveTheErrorUnknown) {
+  ASSERT_EQ(run({scene_, "--size", "32x32", "--spp", "64", "--sampler", "pssmlt", "--set",
+                 "sampler.bootstrapsamples=5", "--aux", "variance,error", "-o", in("a.exr"),
+                 "--json", in("s.json")}),
+            0)
+      << error();
+  const nlohmann::json s = nlohmann::json::parse(bytes_of(in("s.json")));
+  EXPECT_FALSE(s["error"]["known"].get<bool>());
+  EXPECT_FALSE(s["error"].contains("relative_mse"));
+  EXPECT_FALSE(s["error"].contains("mean"));
+  EXPECT_FALSE(s["warnings"].empty());
+  EXPECT_TRUE(says("error estimate: unknown (only "));
+  EXPECT_TRUE(
+      says("of 5 bootstrap samples found light, fewer than 10: brightness and error are unknown"));
+  EXPECT_TRUE(says("variance and error are left out"));
+  const ImageFile file = read_image_file(in("a.exr"));
+  std::string said;
+  for (const auto& [key, value] : file.metadata) said += key == "pssmlt:error" ? value : "";
+  EXPECT_EQ(said.find("unknown (only "), 0u) << said;
+}
+
 TEST_F(Command, QuietSaysNothing) {
   ASSERT_EQ(run({"render", scene_, "--size", "8x8", "--spp", "1", "--quiet", "-o", in("a.pfm")}),
             0);

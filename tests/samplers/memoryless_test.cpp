@@ -42,23 +42,44 @@ TEST(Memoryless, PicturesConvergeToTheIntegral) {
   }
 }
 
-TEST(Memoryless, GroupsAreEstimatesOfTheWhole) {
+// Even and odd sweeps, each over all parts, are estimates of the whole, whose groups know how many
+// samples they have.
+TEST(Memoryless, HalvesAreEstimatesOfTheWhole) {
   const RasterMap map = test::box_map(6, 4);
+  double expected = 0.0;
+  for (int p = 0; p < 24; ++p) expected += smooth_pixel(p);
   for (const std::string& name : names) {
     ToyRender render(name, {}, smooth, map, 5);
-    render.rounds(40);  // groups 0 to 7 twice, the others once
-    double expected = 0.0, mean = 0.0, weight = 0.0;
-    for (int p = 0; p < 24; ++p) expected += smooth_pixel(p);
-    for (int g = 0; g < group_count; ++g) {
-      const double scale = render.sampler().group_scale(0, g, 40);
-      EXPECT_EQ(scale, g < 8 ? 0.5 : 1.0);
-      double sum = 0.0;
-      for (int p = 0; p < 24; ++p) sum += render.film().sum(0, p, g);
-      mean += sum;
-      weight += 1.0 / scale;
+    ASSERT_TRUE(render.sampler().pairs_groups());
+    render.rounds(41);
+    for (int half = 0; half < 2; ++half) {
+      double sum = 0.0, sweeps = 0.0;
+      for (int g = half; g < group_count; g += 2) {
+        sweeps += 1.0 / render.sampler().group_scale(0, g, 41);
+        for (int p = 0; p < 24; ++p) sum += render.film().sum(0, p, g);
+      }
+      EXPECT_NEAR(sweeps, half == 0 ? 21.0 : 20.0, 1e-9);
+      EXPECT_NEAR(sum / sweeps, expected, 0.1 * expected) << name;
     }
-    EXPECT_NEAR(mean / weight, expected, 0.1 * expected) << name;
-    EXPECT_EQ(ToyRender(name, {}, smooth, map, 5).sampler().group_scale(0, 3, 2), 0.0);
+    EXPECT_EQ(render.sampler().group_scale(0, 3, 1), 0.0);
+  }
+}
+
+// Pictures of few pixels fill their parts in turn, so that there are enough of them for an
+// interval.
+TEST(Memoryless, OnePixelHasEightPairs) {
+  const RasterMap map = test::box_map(1, 1);
+  for (const std::string& name : names) {
+    ToyRender render(name, {}, smooth, map, 5);
+    render.rounds(35);
+    double samples = 0.0;
+    for (int g = 0; g < group_count; ++g) {
+      const double scale = render.sampler().group_scale(0, g, 35);
+      EXPECT_EQ(scale > 0.0, g < 16);
+      EXPECT_EQ(render.film().sum(0, 0, g) > 0.0, g < 16);
+      samples += scale > 0.0 ? 1.0 / scale : 0.0;
+    }
+    EXPECT_NEAR(samples, 35.0, 1e-9);
   }
 }
 
@@ -173,8 +194,12 @@ TEST(Memoryless, LargePicturesAreServedInSubsets) {
   EXPECT_TRUE(exact);
   EXPECT_NEAR(sampler->scale(1, 0, 3) * samples, double(width) * height, 1e-6);
   EXPECT_EQ(sampler->scale(0, 1, 1), 0.0);
-  const double both = 1.0 / sampler->group_scale(0, 0, 3) + 1.0 / sampler->group_scale(0, 1, 3);
-  EXPECT_NEAR(both * width * height, samples, 1e-3);
+  double all = 0.0;
+  for (int g = 0; g < group_count; ++g) {
+    const double scale = sampler->group_scale(0, g, 3);
+    all += scale > 0.0 ? 1.0 / scale : 0.0;
+  }
+  EXPECT_NEAR(all * width * height, samples, 1e-3);
 }
 
 // The numbers that a pixel sees at one block.
@@ -197,15 +222,16 @@ std::vector<NumberBlock> numbers_of(const std::string& name, const ParameterSet&
   return result;
 }
 
+// Even samples a grid of their own, and odd ones.
 TEST(Stratified, VisitsEveryStratumOnce) {
   const ParameterSet set = {test::integer("xsamples", 5), test::integer("ysamples", 3)};
   const auto blocks = numbers_of("stratified", set, 13, Stream::connection, 30);
   ASSERT_EQ(blocks.size(), 30u);
-  for (size_t visit = 0; visit < 2; ++visit) {
+  for (size_t half = 0; half < 2; ++half) {
     for (size_t pair = 0; pair < 2; ++pair) {
       std::set<int> met;
       for (size_t i = 0; i < 15; ++i) {
-        const NumberBlock& b = blocks[visit * 15 + i];
+        const NumberBlock& b = blocks[half + 2 * i];
         const int x = static_cast<int>(to_unit_double(b[2 * pair]) * 5.0);
         const int y = static_cast<int>(to_unit_double(b[2 * pair + 1]) * 3.0);
         met.insert(y * 5 + x);
@@ -235,14 +261,23 @@ TEST(Sobol, StratifiesAPixelOverItsSamples) {
   }
 }
 
-// One sweep of 32 pixels is 32 successive points of the light stream's sequence.
-TEST(Sobol, StratifiesTheLightStreamOverThePicture) {
-  const auto blocks = numbers_of("sobol", {}, -1, Stream::light, 1);
-  ASSERT_EQ(blocks.size(), 32u);
-  for (size_t d = 0; d < 4; ++d) {
-    std::set<uint32_t> met;
-    for (const NumberBlock& b : blocks) met.insert(b[d] >> 27);
-    EXPECT_EQ(met.size(), 32u);
+// 32 sweeps are 16 samples of each half; the two pixels of a part take turns in its sequence.
+TEST(Sobol, StratifiesTheLightStreamOverAPart) {
+  const auto blocks = numbers_of("sobol", {}, -1, Stream::light, 32);
+  ASSERT_EQ(blocks.size(), 32u * 32u);
+  for (size_t half = 0; half < 2; ++half) {
+    for (size_t part = 0; part < 16; ++part) {
+      const size_t x = part % 4, y = part / 4;
+      for (size_t d = 0; d < 4; ++d) {
+        std::set<uint32_t> met;
+        for (size_t sweep = half; sweep < 32; sweep += 2) {
+          for (const size_t pixel : {y * 8 + x, y * 8 + x + 4}) {
+            met.insert(blocks[sweep * 32 + pixel][d] >> 27);
+          }
+        }
+        EXPECT_EQ(met.size(), 32u);
+      }
+    }
   }
 }
 

@@ -357,7 +357,7 @@ TEST(Pssmlt, ChecksItsParameters) {
   EXPECT_EQ(ToyRender::make("pssmlt", {test::text("weights", "kelemen")})->planes(), 2);
   EXPECT_NO_THROW(ToyRender::make("pssmlt", {test::number("sigma", 0.02f)}));
   const std::vector<ParameterSet> bad = {
-      {test::number("largestepprobability", 0.f)},
+      {test::number("largestepprobability", -0.1f)},
       {test::number("largestepprobability", 1.5f)},
       {test::number("filmprobability", 0.6f), test::number("streamprobability", 0.6f)},
       {test::text("kernel", "kelemen"), test::number("sigma", 0.02f)},

@@ -138,8 +138,8 @@ class ToyRender {
   ToyFilm& film() { return *film_; }
   Worker& worker() { return worker_; }
   RejectionLog& log() { return log_; }
-  int rounds() const { return rounds_; }
-  void set_rounds(int rounds) { rounds_ = rounds; }
+  int64_t rounds() const { return rounds_; }
+  void set_rounds(int64_t rounds) { rounds_ = rounds; }
 
  private:
   Scene scene_;
@@ -152,7 +152,7 @@ class ToyRender {
   Worker worker_;
   std::shared_ptr<Sampler> sampler_;
   std::unique_ptr<ToyFilm> film_;
-  int rounds_ = 0;
+  int64_t rounds_ = 0;
 };
 
 }  // namespace pssmlt::test

@@ -271,6 +271,27 @@ TEST_F(Compare, BlindTechniquesAndOnePixel) {
   EXPECT_EQ(data()["scenes"][0]["width"], 1);
 }
 
+// Nine bootstrap samples say nothing about the error: no number stands for it, a warning says why.
+TEST_F(Compare, ErrorOfFewBootstrapSamplesIsUnknown) {
+  ASSERT_EQ(run(scene_ + " --techniques path --technique " +
+                "'few=integrator:path;sampler:pssmlt,bootstrapsamples=9' --time 150ms --runs 1 "
+                "--reference-time 100ms -o " +
+                report()),
+            0)
+      << errors();
+  const json d = data();
+  const json& few = d["scenes"][0]["techniques"][1];
+  for (const json& p : few["runs"][0]["points"]) {
+    EXPECT_EQ(p["estimate"]["known"], false);
+    EXPECT_TRUE(p["estimate"]["relmse"].is_null());
+  }
+  EXPECT_TRUE(few["calibration"]["ratio"].is_null());
+  ASSERT_FALSE(few["warnings"].empty());
+  const auto warning = few["warnings"][0].get<std::string>();
+  EXPECT_NE(warning.find("of 9 bootstrap samples found"), std::string::npos) << warning;
+  EXPECT_NE(errors().find("few: " + warning), std::string::npos) << errors();
+}
+
 // One round is longer than the budget: it is finished, nothing is extrapolated.
 TEST_F(Compare, TimeShorterThanARound) {
   ASSERT_EQ(run(scene_ + " --techniques path,mlt --time 1ms --runs 2 --reference-time 50ms -o " +

@@ -209,7 +209,7 @@ void expect_exact_credits(const Case& example, bool kelemen) {
   WalkTally tally;
   for (uint32_t c = 0; c < chains; ++c) {
     Ledger ledger(machine.start(c));
-    uint32_t stuck = 0;
+    uint64_t stuck = 0;
     const uint64_t accepted_before = tally.kinds[0].accepted + tally.kinds[1].accepted;
     advance(machine.walker(), machine.owner(), ledger, rule, mutations, stuck, tally);
     (void)accepted_before;
@@ -246,7 +246,7 @@ TEST(Advance, ExpectedCreditsSumToOneAMutation) {
   WalkTally tally;
   for (uint32_t c = 0; c < 50; ++c) {
     Ledger ledger(machine.start(c));
-    uint32_t stuck = 0;
+    uint64_t stuck = 0;
     advance(machine.walker(), machine.owner(), ledger, CreditRule::expected(3.0), 64, stuck, tally);
     double sum = 0.0;
     for (const double s : ledger.chain) sum += s;
@@ -264,7 +264,7 @@ TEST(Advance, LargeStepsMeasureB) {
   WalkTally tally;
   for (uint32_t c = 0; c < 2000; ++c) {
     Ledger ledger(machine.start(c));
-    uint32_t stuck = 0;
+    uint64_t stuck = 0;
     advance(machine.walker(), machine.owner(), ledger, CreditRule::expected(1.0), 100, stuck,
             tally);
   }

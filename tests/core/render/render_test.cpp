@@ -269,12 +269,12 @@ class PassIntegrator final : public Integrator {
   std::string sees() const override { return "L.*E"; }
   bool splats_light() const override { return false; }
   const PathLimits& limits() const override { return limits_; }
-  int passes(int) const override { return 16; }
-  void pass(int round, int unit, PrimarySample& u) override {
+  int passes(int64_t) const override { return 16; }
+  void pass(int64_t round, int unit, PrimarySample& u) override {
     units_[static_cast<size_t>(unit)] =
         u.numbers(Stream::light, unit).next() + static_cast<float>(round);
   }
-  void merge_passes(int) override {
+  void merge_passes(int64_t) override {
     for (const float v : units_) merged_ += v;
   }
   bool fixed() const override { return false; }
