@@ -17,6 +17,8 @@ constexpr const char* usage =
     "       pssmlt error PICTURE REFERENCE      how far a picture is from a reference\n"
     "       pssmlt merge A B ... -o C           average independent renders of one picture\n"
     "       pssmlt convert OLD NEW              a scene as one file in today's format\n"
+    "       pssmlt stress [options]             extreme scenes with known pictures, all "
+    "techniques\n"
     "       pssmlt plugins [KIND [NAME]]        reference of the plugins' parameters\n"
     "       pssmlt --version                    versions and processor features\n";
 
@@ -35,7 +37,7 @@ int run(Arguments arguments) {
       {"render", pssmlt::run_render},   {"compare", pssmlt::run_compare},
       {"plugins", pssmlt::run_plugins}, {"info", pssmlt::run_info},
       {"error", pssmlt::run_error},     {"merge", pssmlt::run_merge},
-      {"convert", pssmlt::run_convert}};
+      {"convert", pssmlt::run_convert}, {"stress", pssmlt::run_stress}};
   const auto command = commands.find(first);
   if (command == commands.end()) return pssmlt::run_render(arguments);
   arguments.erase(arguments.begin());

@@ -21,12 +21,16 @@ spdlog::logger& logger() {
   return *made;
 }
 
-std::mutex printing;  // and of `around`
+std::mutex printing;  // and of what stands below
 std::function<void(const std::function<void()>&)> around;
 
+bool capturing = false;
+std::vector<std::string> captured;
+
 void log(spdlog::level::level_enum level, const std::string& message) {
-  if (!logger().should_log(level)) return;
   const std::lock_guard lock(printing);
+  if (capturing) return captured.push_back(message);
+  if (!logger().should_log(level)) return;
   const auto print = [&] { logger().log(level, message); };
   if (around) {
     around(print);
@@ -46,6 +50,20 @@ void set_log_level(LogLevel level) {
   logger().set_level(level == LogLevel::quiet     ? spdlog::level::warn
                      : level == LogLevel::verbose ? spdlog::level::debug
                                                   : spdlog::level::info);
+}
+
+LogCapture::LogCapture() {
+  const std::lock_guard lock(printing);
+  capturing = true;
+  captured.clear();
+}
+LogCapture::~LogCapture() {
+  const std::lock_guard lock(printing);
+  capturing = false;
+}
+std::vector<std::string> LogCapture::lines() const {
+  const std::lock_guard lock(printing);
+  return captured;
 }
 
 void log_debug(const std::string& message) { log(spdlog::level::debug, message); }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace pssmlt {
 
@@ -17,5 +18,16 @@ void log_warning(const std::string& message);
 // For what else stands on the terminal: every line that is shown is printed by around(print), on
 // the thread that logs, one at a time; around must not log. Empty: no longer.
 void print_log_by(std::function<void(const std::function<void()>& print)> around);
+
+// While it lives, every line, details too, is kept here instead of being printed. One at a time.
+class LogCapture {
+ public:
+  LogCapture();
+  ~LogCapture();
+  LogCapture(const LogCapture&) = delete;
+  LogCapture& operator=(const LogCapture&) = delete;
+  // Warnings begin with "warning: ".
+  std::vector<std::string> lines() const;
+};
 
 }  // namespace pssmlt

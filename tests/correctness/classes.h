@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/path/path_expression.h"
+#include "core/path/visible_classes.h"
 #include "core/scene/scene.h"
 #include "tests/support/render_text.h"
 
@@ -25,23 +26,11 @@ inline bool is_chain(const std::string& sampler) {
   return make_default<Sampler>("sampler", sampler)->is_chain();
 }
 
-// Paths that match both expressions; & of whole expressions is part of the language.
-inline std::string both(const std::string& a, const std::string& b) { return a + "&" + b; }
-
-// All classes with up to `bounces` scattering vertices, e.g. "ADSE".
-inline std::vector<std::string> all_classes(int bounces) {
-  std::vector<std::string> out, level = {"A", "I", "P", "V"};
-  for (int k = 0; k <= bounces; ++k) {
-    std::vector<std::string> next;
-    for (const std::string& path : level) {
-      out.push_back(path + "E");
-      next.push_back(path + "D");
-      next.push_back(path + "S");
-    }
-    level = std::move(next);
-  }
-  return out;
+// Paths that match both expressions.
+inline std::string both(const std::string& a, const std::string& b) {
+  return both_expressions(a, b);
 }
+inline std::vector<std::string> all_classes(int bounces) { return all_path_classes(bounces); }
 
 // The integrator that sees the most classes.
 inline std::string sees_most() {

@@ -37,17 +37,8 @@ std::vector<Case> cases() {
 // Is every class of paths that brings light into the picture seen?
 bool sees_all(const Case& c) {
   const BuiltScene built = build_text({.scene = c.form.scene, .integrator = c.integrator});
-  const SceneFeatures& features = built.scene->features();
-  const PathExpression mask(both(built.layers.front().integrator->sees(), c.form.classes));
-  // Longer classes are made of the same letters.
-  for (const std::string& path : all_classes(std::min(c.form.max_depth, 5))) {
-    const PathExpression one(path);
-    const auto apart = [&](const PathExpression& other) {
-      return PathExpression::disjoint(one, other, features, 0, c.form.max_depth);
-    };
-    if (!apart(PathExpression(c.form.classes)) && apart(mask)) return false;
-  }
-  return true;
+  return !unseen_class(built.layers.front().integrator->sees(), c.form.classes,
+                       built.scene->features(), c.form.max_depth);
 }
 
 // The parts of the picture, and last the whole, whose errors are found as stated above.

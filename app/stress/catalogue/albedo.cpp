@@ -1,0 +1,55 @@
+// Group 6: white walls and long paths.
+#include <cmath>
+
+#include "app/stress/catalogue.h"
+#include "app/stress/catalogue/scenes.h"
+
+namespace pssmlt::stress {
+namespace {
+
+// A sphere that shines and reflects inside: 1 (1 - rho^(d+1)) / (1 - rho) everywhere.
+std::string integrating_sphere(int size, double rho) {
+  return film(size, size) + fmt::format(R"(
+LookAt .3 -.2 .1  -.4 .1 1  0 1 0
+Camera "perspective" "float fov" 60
+WorldBegin
+ReverseOrientation
+Material "diffuse" "rgb reflectance" [ {0} {0} {0} ]
+AreaLightSource "diffuse" "rgb L" [ 1 1 1 ]
+Shape "sphere" "float radius" 1)",
+                                        rho);
+}
+
+double radiance(double rho, int depth) {
+  return -std::expm1((depth + 1) * std::log(rho)) / (1.0 - rho);
+}
+
+// Albedos are floats in the renderer.
+double as_float(double rho) { return static_cast<double>(static_cast<float>(rho)); }
+
+Case sphere(const std::string& name, int size, int depth, std::vector<double> albedos,
+            const std::string& about) {
+  Case c{.group = 6, .name = name, .about = about, .classes = "AD*E", .max_depth = depth};
+  c.polite = [size] { return integrating_sphere(size, .5); };
+  for (const double rho : albedos) {
+    c.points.push_back({fmt::format("{}", rho),
+                        [size, rho] { return integrating_sphere(size, rho); },
+                        Means{{radiance(as_float(rho), depth)}, 1e-3}});
+  }
+  return c;
+}
+
+}  // namespace
+
+void add_albedo_cases(Cases& cases) {
+  cases.push_back(sphere("white-sphere-1", 16, 1, {.999, .9}, "albedo, one bounce: closed form"));
+  cases.push_back(sphere("white-sphere-2", 16, 2, {.999, .9}, "albedo, two bounces: closed form"));
+  cases.push_back(
+      sphere("white-sphere-1000", 8, 1000, {.999, .99}, "albedo, 1000 bounces: closed form"));
+  cases.push_back(sphere("white-sphere", 8, 60000, {.999, .99, .9},
+                         "albedo, without a limit of bounces: closed form"));
+  cases.push_back(sphere("white-sphere-million", 2, 1000000, {.99999, .9999},
+                         "albedo, a million bounces: closed form"));
+}
+
+}  // namespace pssmlt::stress
