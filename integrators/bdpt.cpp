@@ -31,7 +31,7 @@ struct Strategy {
   int s = 0, t = 0;
   int bounces() const { return s + t - 2; }
   PathTag tag() const {
-    return {static_cast<uint16_t>(bounces()), static_cast<uint8_t>(std::min(s, 255)),
+    return {static_cast<uint32_t>(bounces()), static_cast<uint8_t>(std::min(s, 255)),
             static_cast<uint8_t>(std::min(t, 255))};
   }
 };

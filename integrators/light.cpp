@@ -104,7 +104,7 @@ void LightTracer::add_vertex(const PathVertex& v, int k, PrimarySample& u, Splat
   if (v.dispersed) value *= path_wavelength(u).colour;
   const Passage way = passage(*scene_, s.segment(*lens), s.medium_toward(lens->wi));
   out.light(lens->raster, way.light() * value,
-            {static_cast<uint16_t>(k), static_cast<uint8_t>(std::min(k + 1, 255)), 1});
+            {static_cast<uint32_t>(k), static_cast<uint8_t>(std::min(k + 1, 255)), 1});
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ void Path::add(const Walk& w, const Light& light, const EndpointPoint& at, const
         scene_->lights().probability(pick_, w.last, &light) * light.pdf_toward(w.last.position, at);
     weight = power_weight(w.pdf, drawn);
   }
-  const auto bounces = static_cast<uint16_t>(w.bounces);
+  const auto bounces = static_cast<uint32_t>(w.bounces);
   out.camera(weight * w.throughput * value,
              {bounces, 0, static_cast<uint8_t>(std::min(w.bounces + 2, 255))});
 }
@@ -159,7 +159,7 @@ void Path::add_medium_emission(const Walk& w, const Surface& s, Splats& out) con
   if (!limits_.paths.ends(LightLetter::medium, w.state)) return;
   out.camera(
       w.throughput * s.point().emission,
-      {static_cast<uint16_t>(w.bounces), 0, static_cast<uint8_t>(std::min(w.bounces + 2, 255))});
+      {static_cast<uint32_t>(w.bounces), 0, static_cast<uint8_t>(std::min(w.bounces + 2, 255))});
 }
 
 void Path::add_background(const Walk& w, Splats& out) const {
@@ -200,7 +200,7 @@ void Path::add_direct(const Walk& w, const Surface& s, PrimarySample& u, Splats&
   if (draw.hittable()) {
     weight = power_weight(draw.pdf(), s.pdf(t.wi) * mean(way.transmittance));
   }
-  const auto bounces = static_cast<uint16_t>(w.bounces);
+  const auto bounces = static_cast<uint32_t>(w.bounces);
   out.camera(weight * way.light() * value,
              {bounces, 1, static_cast<uint8_t>(std::min(w.bounces + 1, 255))});
 }

@@ -90,7 +90,7 @@ void Whitted::sample(PrimarySample& u, Splats& out, Workspace&) const {
 void Whitted::add(const Walk& w, LightLetter letter, int s, const Rgb& light, Splats& out) const {
   const auto state = s == 1 ? limits_.paths.camera_step(w.state, false) : w.state;
   if (w.bounces < limits_.min_bounces || !limits_.paths.ends(letter, state)) return;
-  out.camera(w.throughput * light, {static_cast<uint16_t>(w.bounces), static_cast<uint8_t>(s),
+  out.camera(w.throughput * light, {static_cast<uint32_t>(w.bounces), static_cast<uint8_t>(s),
                                     static_cast<uint8_t>(std::min(w.bounces + 2 - s, 255))});
 }
 

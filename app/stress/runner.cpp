@@ -58,6 +58,12 @@ std::string blindness(const BuiltScene& built, const std::string& classes, int m
   return fmt::format("{} sees {}: none of the light of {}", layer.integrator_name, sees, classes);
 }
 
+// Does it meet lights by directions that rough surfaces or media sample? A path that ends in a
+// medium that emits is found in no other way.
+bool follows_lobes(const Integrator& integrator) {
+  return PathExpression(integrator.sees()).matches("VDE");
+}
+
 }  // namespace
 
 std::string_view to_string(Verdict verdict) {
@@ -221,6 +227,12 @@ Outcome Runner::judge(const Case& c, const Point& point, const Pair& pair, doubl
   const std::string& classes = point.classes.empty() ? c.classes : point.classes;
   const bool all = std::holds_alternative<Means>(point.oracle);
   outcome.reason = blindness(picture.scene(), classes, c.max_depth, all);
+  if (point.narrow && outcome.reason.empty() &&
+      !follows_lobes(*picture.scene().layers.front().integrator)) {
+    outcome.reason = pair.integrator +
+                     " does not meet lights along sampled lobes, and these are too narrow to be "
+                     "found by points drawn on light or lens";
+  }
   if (!outcome.reason.empty()) {
     outcome.verdict = Verdict::cannot_see;
     return outcome;

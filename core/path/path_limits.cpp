@@ -3,7 +3,7 @@
 namespace pssmlt {
 namespace {
 
-constexpr int deepest = 65535;  // PathTag counts in 16 bits
+constexpr int deepest = 1 << 28;  // numbers of a vertex have 32-bit addresses, two blocks each
 
 }  // namespace
 

@@ -83,7 +83,7 @@ void replay_named(const BuiltScene& scene, const std::string& key, uint64_t seed
     const Layer& layer = scene.layers[l];
     if (layer.sampler->is_chain()) continue;
     RejectionLog log;
-    LayerTools tools(*layer.integrator, *scene.raster_map, log, true);
+    LayerTools tools(*layer.integrator, *scene.raster_map, log, true, scene.radiance_scale);
     start(scene, layer, layer_seed(seed, l), tools);
     std::vector<std::string> rays;
     {
@@ -114,7 +114,7 @@ void trace_pixel(const BuiltScene& scene, const ivec2& pixel, int samples, uint6
   for (const Layer& layer : scene.layers) {
     for (int s = 0; s < samples; ++s) {
       RejectionLog log;
-      LayerTools tools(*layer.integrator, *scene.raster_map, log, true);
+      LayerTools tools(*layer.integrator, *scene.raster_map, log, true, scene.radiance_scale);
       PixelSource source(seed, at.y * size.x + at.x, s);
       tools.sample.begin(source);
       tools.sample.set_pixel(at.y * size.x + at.x);
@@ -130,7 +130,7 @@ void replay_sample(const BuiltScene& scene, const std::string& key, uint64_t see
   if (parse_sample_name(key, name)) return replay_named(scene, key, seed, line);
   for (const Layer& layer : scene.layers) {
     RejectionLog log;
-    LayerTools tools(*layer.integrator, *scene.raster_map, log, true);
+    LayerTools tools(*layer.integrator, *scene.raster_map, log, true, scene.radiance_scale);
     if (!numbers_from_text(key, tools.sample)) {
       throw Error("\"" + key + "\" is not a replay key: \"sampler:seed:pixel:index\" or \"u:...\"");
     }

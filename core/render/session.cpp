@@ -60,8 +60,10 @@ std::string_view to_string(StopReason reason) {
 }
 
 LayerTools::LayerTools(const Integrator& integrator, const RasterMap& map, RejectionLog& log,
-                       bool keep_tags)
-    : sample(map), evaluator(integrator, log), worker{sample, splats, workspace, evaluator} {
+                       bool keep_tags, double radiance_scale)
+    : sample(map),
+      evaluator(integrator, log, radiance_scale),
+      worker{sample, splats, workspace, evaluator} {
   splats.keep_tags(keep_tags);
 }
 
@@ -119,7 +121,8 @@ LayerTools& Session::tools(LayerState& layer, int slot) {
   auto& made = layer.tools[static_cast<size_t>(slot)];
   if (!made) {
     made = std::make_unique<LayerTools>(*layer.layer->integrator, *scene_.raster_map, rejections_,
-                                        settings_.per_length || settings_.per_strategy);
+                                        settings_.per_length || settings_.per_strategy,
+                                        scene_.radiance_scale);
   }
   return *made;
 }

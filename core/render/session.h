@@ -17,7 +17,8 @@ namespace pssmlt {
 
 // One thread's tools for one layer.
 struct LayerTools {
-  LayerTools(const Integrator& integrator, const RasterMap& map, RejectionLog& log, bool keep_tags);
+  LayerTools(const Integrator& integrator, const RasterMap& map, RejectionLog& log, bool keep_tags,
+             double radiance_scale = 1.0);
   PrimarySampleOwner sample;
   Splats splats;
   Workspace workspace;

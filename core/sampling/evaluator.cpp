@@ -1,15 +1,18 @@
 #include "core/sampling/evaluator.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "core/sampling/replay.h"
 
 namespace pssmlt {
 namespace {
 
 constexpr size_t example_count = 16;
-constexpr float largest_value = 0x1p40f;
+constexpr double largest_relative_value = 0x1p40;
 
 // What is wrong with one colour; false if nothing is.
-bool find_fault(const Rgb& value, Rejection& cause) {
+bool find_fault(const Rgb& value, float largest_value, Rejection& cause) {
   for (int c = 0; c < 3; ++c) {
     const float v = value[c];
     if (v >= 0.f && v <= largest_value) continue;
@@ -64,6 +67,13 @@ std::vector<ReplayKey> RejectionLog::examples() const {
   return examples_;
 }
 
+Evaluator::Evaluator(const Integrator& integrator, RejectionLog& log, double radiance_scale)
+    : integrator_(integrator),
+      log_(log),
+      largest_value_(
+          static_cast<float>(std::min(largest_relative_value * radiance_scale,
+                                      static_cast<double>(std::numeric_limits<float>::max())))) {}
+
 void Evaluator::name_sample(const char* sampler, uint64_t seed, int64_t pixel, int64_t index) {
   sampler_ = sampler;
   seed_ = seed;
@@ -87,7 +97,7 @@ bool Evaluator::evaluate(PrimarySample& u, Splats& out, Workspace& workspace) {
 bool Evaluator::check(PrimarySample& u, Splats& out) {
   for (const Splat& splat : out.all()) {
     Rejection cause{};
-    bool bad = find_fault(splat.value, cause);
+    bool bad = find_fault(splat.value, largest_value_, cause);
     if (!bad && splat.from_camera && !u.raster_known()) {
       bad = true;
       cause = Rejection::no_raster;

@@ -44,9 +44,10 @@ class RejectionLog {
 
 class Evaluator {
  public:
-  Evaluator(const Integrator& integrator, RejectionLog& log) : integrator_(integrator), log_(log) {}
+  // radiance_scale: see BuiltScene; what is too large is measured by it.
+  Evaluator(const Integrator& integrator, RejectionLog& log, double radiance_scale = 1.0);
   // f(u) into `out` (cleared first). False if the sample was dropped: `out` is then empty and the
-  // cause counted with what describes u. Values above 2^40 are too large.
+  // cause counted with what describes u. Values above 2^40 radiance scales are too large.
   bool evaluate(PrimarySample& u, Splats& out, Workspace& workspace);
   // How a memoryless sampler names the sample about to be evaluated (cheap: stored, not formatted,
   // until needed). Chains leave it unset: u itself is printed.
@@ -58,6 +59,7 @@ class Evaluator {
   void drop(Rejection cause, PrimarySample& u, Splats& out);
   const Integrator& integrator_;
   RejectionLog& log_;
+  float largest_value_;
   const char* sampler_ = nullptr;
   uint64_t seed_ = 0;
   int64_t pixel_ = -1, index_ = -1;

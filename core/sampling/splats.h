@@ -11,7 +11,7 @@ namespace pssmlt {
 
 // Which path a value came from, for images by path length and by strategy.
 struct PathTag {
-  uint16_t bounces = 0;  // scattering vertices
+  uint32_t bounces = 0;  // scattering vertices
   uint8_t s = 0, t = 0;  // vertices on the light and camera subpaths (bidirectional strategies)
 };
 

@@ -190,6 +190,7 @@ BuiltScene SceneBuilder::build() {
   build_camera();
   build_lights();
   build_shapes();
+  tell_coarse_grid();
   finish_lights();
   finish_features();
   set_hashes(built_, description_, options_, settings);

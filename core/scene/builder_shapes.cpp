@@ -103,25 +103,9 @@ std::unique_ptr<Primitive> SceneBuilder::build_primitive(const ShapeDescription&
   parameters.set_transform(placed);
   parameters.set_reverse_orientation(shape.reverse_orientation);
   primitive->shape = make_plugin<Shape>(found, parameters);
-  refuse_beyond_reach(*primitive->shape, shape.where);
+  check_place(*primitive->shape, placed, shape.where);
   primitive->name = shape.type + " " + to_string(shape.where);
   return primitive;
-}
-
-// Embree would leave out silently what its arithmetic cannot reach.
-void SceneBuilder::refuse_beyond_reach(const Shape& shape, const Location& where) {
-  Bounds bounds;
-  if (const TriangleMesh* const mesh = shape.mesh()) {
-    for (const vec3& p : mesh->positions) bounds.add(p);
-  } else {
-    bounds = shape.bounds();
-  }
-  const vec3 farthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-  if (bounds.min.x <= bounds.max.x && !(max_component(farthest) <= Accel::max_reach)) {
-    throw Error(where, fmt::format("this shape reaches further than {:g} from the camera: that is "
-                                   "too far",
-                                   Accel::max_reach));
-  }
 }
 
 void SceneBuilder::count(const Primitive& primitive) {

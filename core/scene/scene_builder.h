@@ -50,7 +50,9 @@ class SceneBuilder {
   void build_camera();
   void build_lights();
   void build_shapes();
-  static void refuse_beyond_reach(const Shape& shape, const Location& where);
+  void check_place(const Shape& shape, const Transform& placed, const Location& where);
+  void note_coarse_grid(const Bounds& box, const Transform& placed, const Location& where);
+  void tell_coarse_grid();
   struct PlacedInstance {
     Accel::Instance instance;
     Location where;
@@ -86,6 +88,10 @@ class SceneBuilder {
   BuildResolver resolver_;
   std::unique_ptr<Scene> scene_;
   MediaBuilder media_;
+  // Shapes whose coordinates are written on a float grid that is coarse for them.
+  size_t coarse_shapes_ = 0;
+  Location first_coarse_;
+  double coarsest_ = 0.0;  // rounding of coordinates over the shape's size
 };
 
 }  // namespace pssmlt

@@ -28,8 +28,13 @@ double radiance(double rho, int depth) {
 double as_float(double rho) { return static_cast<double>(static_cast<float>(rho)); }
 
 Case sphere(const std::string& name, int size, int depth, std::vector<double> albedos,
-            const std::string& about) {
-  Case c{.group = 6, .name = name, .about = about, .classes = "AD*E", .max_depth = depth};
+            const std::string& about, double demand = .1) {
+  Case c{.group = 6,
+         .name = name,
+         .about = about,
+         .classes = "AD*E",
+         .max_depth = depth,
+         .demand = demand};
   c.polite = [size] { return integrating_sphere(size, .5); };
   for (const double rho : albedos) {
     c.points.push_back({fmt::format("{}", rho),
@@ -42,14 +47,13 @@ Case sphere(const std::string& name, int size, int depth, std::vector<double> al
 }  // namespace
 
 void add_albedo_cases(Cases& cases) {
-  cases.push_back(sphere("white-sphere-1", 16, 1, {.999, .9}, "albedo, one bounce: closed form"));
-  cases.push_back(sphere("white-sphere-2", 16, 2, {.999, .9}, "albedo, two bounces: closed form"));
-  cases.push_back(
-      sphere("white-sphere-1000", 8, 1000, {.999, .99}, "albedo, 1000 bounces: closed form"));
-  cases.push_back(sphere("white-sphere", 8, 60000, {.999, .99, .9},
-                         "albedo, without a limit of bounces: closed form"));
-  cases.push_back(sphere("white-sphere-million", 2, 1000000, {.99999, .9999},
-                         "albedo, a million bounces: closed form"));
+  const std::string form = "albedo of a sphere, closed form: ";
+  cases.push_back(sphere("white-sphere-1", 16, 1, {.999, .9}, form + "one bounce"));
+  cases.push_back(sphere("white-sphere-2", 16, 2, {.999, .9}, form + "two bounces"));
+  cases.push_back(sphere("white-sphere-1000", 8, 1000, {.999, .99}, form + "1000 bounces"));
+  cases.push_back(sphere("white-sphere", 8, 1000000, {.999, .99, .9}, form + "no limit", .2));
+  // A path is a hundred thousand bounces long: few of them can be asked for.
+  cases.push_back(sphere("white-sphere-million", 2, 1000000, {.99999}, form + "a million", 1.0));
 }
 
 }  // namespace pssmlt::stress

@@ -1,6 +1,5 @@
 // Group 2: how bright it is.
 #include <cmath>
-#include <numbers>
 
 #include "app/stress/catalogue.h"
 #include "app/stress/catalogue/scenes.h"
@@ -16,24 +15,6 @@ Case powers_of_two() {
                         SameBits{radiance}});
   }
   return c;
-}
-
-// I cos / d^2 of the light at height 1.5 over each quarter of the plane, which reflects .6.
-std::vector<double> lit_quarters(double half) {
-  std::vector<double> values;
-  constexpr int n = 200;
-  for (int q = 0; q < 4; ++q) {
-    double sum = 0.0;
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) {
-        const double x = half * (i + .5) / n, y = half * (j + .5) / n;
-        const double d2 = x * x + y * y + 1.5 * 1.5;
-        sum += 3.0 * 1.5 / (d2 * std::sqrt(d2)) / (n * n);
-      }
-    }
-    values.push_back(.6 / std::numbers::pi * sum);
-  }
-  return values;
 }
 
 // A lamp of the given intensity in a closed box that nothing looks into, beside one of 3 W/sr.

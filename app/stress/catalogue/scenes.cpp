@@ -92,6 +92,25 @@ std::string plane_view(int size, double half_width, double half_height, double t
              distance * std::sin(a), distance * std::cos(a), -w, w, -half_height, half_height);
 }
 
+constexpr double lamp_height = 1.5, lamp_intensity = 3.0;
+
+std::vector<double> lit_quarters(double half) {
+  std::vector<double> values;
+  constexpr int n = 200;
+  for (int q = 0; q < 4; ++q) {
+    double sum = 0.0;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        const double x = half * (i + .5) / n, y = half * (j + .5) / n;
+        const double d2 = x * x + y * y + lamp_height * lamp_height;
+        sum += lamp_intensity * lamp_height / (d2 * std::sqrt(d2)) / (n * n);
+      }
+    }
+    values.push_back(.6 / std::numbers::pi * sum);
+  }
+  return values;
+}
+
 double fresnel_reflectance(double cosine, double eta) {
   const double sin2 = (1.0 - cosine * cosine) / (eta * eta);
   if (sin2 >= 1.0) return 1.0;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 namespace pssmlt::stress {
 
@@ -27,6 +28,10 @@ std::string lab(const Lab& l);
 // half_height [scene units].
 std::string plane_view(int size, double half_width, double half_height, double tilt_degrees = 0.0,
                        double distance = 10.0);
+
+// Radiance of the quarters of a square, 2 half wide, that reflects .6 of what a light of 3 W/sr at
+// height 1.5 above its centre sends: I cos / d^2.
+std::vector<double> lit_quarters(double half);
 
 // Reflectance of a smooth interface for unpolarised light (Fresnel); eta: index behind over before.
 double fresnel_reflectance(double cosine, double eta);

@@ -33,7 +33,7 @@ class NaivePath final : public Integrator {
   void add(Splats& out, const Rgb& value, LightLetter light, PathExpression::State state,
            int bounces) const {
     if (!limits_.in_range(bounces) || !limits_.paths.ends(light, state)) return;
-    out.camera(value, {.bounces = static_cast<uint16_t>(bounces),
+    out.camera(value, {.bounces = static_cast<uint32_t>(bounces),
                        .t = static_cast<uint8_t>(std::min(bounces + 2, 255))});
   }
 
