@@ -14,5 +14,6 @@ struct PageFile {
 
 std::vector<PageFile> live_page_files();    // app/live/page
 std::vector<PageFile> report_page_files();  // app/report/page and Chart.js, as "/chart.min.js"
+std::vector<PageFile> stress_page_files();  // app/stress/page
 
 }  // namespace pssmlt

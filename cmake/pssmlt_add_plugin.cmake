@@ -1,9 +1,9 @@
-# pssmlt_add_plugin(file.cpp [KIND kind]): builds one plugin. The kind is the singular of the folder
+# pssmlt_add_plugin(file.cpp [KIND kind] [FOLDER folder]): builds one plugin. The kind is the singular of the folder
 # that holds the file unless given; inside the tree the result goes where the registry looks, outside
-# it to ${CMAKE_CURRENT_BINARY_DIR}/plugins/<kind>, to be named by PSSMLT_PLUGIN_PATH. Libraries that
-# one plugin alone needs are named in an optional <name>.cmake beside it, which sees ${target}.
+# it to ${CMAKE_CURRENT_BINARY_DIR}/plugins/<kind>, to be named by PSSMLT_PLUGIN_PATH. FOLDER: a
+# folder of that place, which is not looked into by itself. Libraries that one plugin alone needs are named in an optional <name>.cmake beside it, which sees ${target}.
 function(pssmlt_add_plugin source)
-  cmake_parse_arguments(plugin "" "KIND" "" ${ARGN})
+  cmake_parse_arguments(plugin "" "KIND;FOLDER" "" ${ARGN})
   get_filename_component(source ${source} ABSOLUTE)
   get_filename_component(name ${source} NAME_WE)
   get_filename_component(folder ${source} DIRECTORY)
@@ -21,11 +21,17 @@ function(pssmlt_add_plugin source)
   set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name} DEFINE_SYMBOL "")
   if(TARGET pssmlt_core)
     target_link_libraries(${target} PRIVATE pssmlt_core pssmlt_flags fmt::fmt)
-    set(place ${PROJECT_BINARY_DIR}/lib/pssmlt/${kind})
-    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../.."
+    set(below pssmlt)
+    set(library_from_plugin "$ORIGIN/../..")
+    if(plugin_FOLDER)
+      set(below pssmlt/${plugin_FOLDER})
+      set(library_from_plugin "$ORIGIN/../../..")
+    endif()
+    set(place ${PROJECT_BINARY_DIR}/lib/${below}/${kind})
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH ${library_from_plugin}
                           CXX_VISIBILITY_PRESET hidden)
     pssmlt_precompile(${target} REUSE pssmlt_plugin_headers)
-    install(TARGETS ${target} LIBRARY DESTINATION lib/pssmlt/${kind})
+    install(TARGETS ${target} LIBRARY DESTINATION lib/${below}/${kind})
   else()
     target_link_libraries(${target} PRIVATE pssmlt::core)
     set(place ${CMAKE_CURRENT_BINARY_DIR}/plugins/${kind})

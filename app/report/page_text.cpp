@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "app/page_file.h"
-
 namespace pssmlt {
 namespace {
 
@@ -12,9 +10,9 @@ void replace(std::string& text, const std::string& what, const std::string& by) 
   if (at != std::string::npos) text.replace(at, what.size(), by);
 }
 
-// What the page does not name is left out.
-std::string put_together() {
-  const std::vector<PageFile> files = report_page_files();
+}  // namespace
+
+std::string put_together(const std::vector<PageFile>& files) {
   std::string page = std::ranges::find(files, "/", &PageFile::path)->text;
   for (const PageFile& file : files) {
     const std::string name = file.path.substr(1);
@@ -25,10 +23,23 @@ std::string put_together() {
   return page;
 }
 
-}  // namespace
+std::string with_data(std::string_view page, std::string_view json) {
+  // "<" is legal in JSON's strings only; escaped, no "</script>" or "<!--" can end the element.
+  std::string text;
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  const size_t at = page.find(page_data_mark);
+  return std::string(page.substr(0, at)) + text +
+         std::string(page.substr(at + page_data_mark.size()));
+}
 
 const std::string& page_text() {
-  static const std::string text = put_together();
+  static const std::string text = put_together(report_page_files());
   return text;
 }
 

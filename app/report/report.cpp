@@ -91,20 +91,7 @@ std::string report_id(const std::string& text) {
 
 std::string report_page_data(const json& data) { return dump(for_page(data), -1); }
 
-std::string report_page(const json& data) {
-  // "<" is legal in JSON's strings only; escaped, no "</script>" or "<!--" can end the element.
-  std::string text;
-  for (const char c : report_page_data(data)) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
-  }
-  const std::string_view page = page_text(), mark = page_data_mark;
-  const size_t at = page.find(mark);
-  return std::string(page.substr(0, at)) + text + std::string(page.substr(at + mark.size()));
-}
+std::string report_page(const json& data) { return with_data(page_text(), report_page_data(data)); }
 
 std::vector<PageFile> report_live_files() {
   std::vector<PageFile> files = report_page_files();

@@ -14,7 +14,7 @@ namespace pssmlt::stress {
 
 // An integrator under a sampler; both empty for what no technique decides.
 struct Pair {
-  std::string integrator, sampler;
+  std::string integrator = {}, sampler = {};
   bool operator==(const Pair&) const = default;
 };
 
@@ -24,13 +24,13 @@ std::string_view to_string(Verdict verdict);
 // What was found at one value of a case with one pair.
 struct Outcome {
   Verdict verdict = Verdict::not_run;
-  std::string reason;                          // of all verdicts but pass; of pass: what was seen
-  std::optional<double> deviation, tolerance;  // relative, of what the oracle compares
-  std::string meaning;                         // of the tolerance
+  std::string reason = {};  // of all verdicts but pass; of pass: what was seen
+  std::optional<double> deviation = {}, tolerance = {};  // relative, of what the oracle compares
+  std::string meaning = {};                              // of the tolerance
   uint64_t dropped = 0;                        // samples that were not finite, or the like
-  std::optional<double> relative_speed;        // rays a second over those of the polite scene
-  std::optional<double> acceptance;            // of chains
-  std::optional<uint64_t> longest_stuck;       // of chains [mutations]
+  std::optional<double> relative_speed = {};   // rays a second over those of the polite scene
+  std::optional<double> acceptance = {};       // of chains
+  std::optional<uint64_t> longest_stuck = {};  // of chains [mutations]
   double seconds = 0.0;
 };
 
@@ -74,14 +74,22 @@ using Oracle = std::variant<SameBits, SameMeans, Means, AtMost, Refused, Probe>;
 struct Point {
   std::string value;                   // as the table shows it
   std::function<std::string()> scene;  // text; empty for probes
-  Oracle oracle;
+  Oracle oracle = Probe{};
   std::vector<std::string> set = {};       // as --set of the command
   std::vector<std::string> warnings = {};  // texts that the log has to hold
   std::string classes = {};                // instead of the case's
   // Lobes are so narrow that only integrators that follow them to the light see it: one that draws
   // a point on the light, or on the lens, finds it once in 1 / width^2 draws.
   bool narrow = false;
+  // The picture shows so little of the scene that light traced from the lamps does not land in it.
+  bool aimed = false;
+  // Some samples must be dropped, for one of these causes. Empty: none may be.
+  std::vector<std::string> drops = {};
 };
+
+// What a case is run with: every integrator under every sampler, every sampler (probes that bring
+// their own target), or once.
+enum class Over : uint8_t { pairs, samplers, once };
 
 struct Case {
   int group = 0;                   // of the catalogue
@@ -93,8 +101,9 @@ struct Case {
   std::string classes = "L.*E";  // of the light that the oracles count, a path expression
   int max_depth = 5;             // bounces
   double demand = 0.1;           // relative; a tolerance above it decides nothing
-  bool techniques = true;        // false: tested once, without integrators and samplers
-  int samples = 16;              // samples a pixel of comparisons bit by bit
+  Over over = Over::pairs;
+  int least_samples = 32;  // a pixel, of comparisons by statistics
+  int samples = 16;        // samples a pixel of comparisons bit by bit
 };
 
 }  // namespace pssmlt::stress

@@ -128,6 +128,12 @@ Comparison compare_bits(const Image& image, const Image& reference, double facto
   return all;
 }
 
+bool is_black(const Blocks& blocks) {
+  return std::ranges::all_of(blocks.values, [](const std::vector<double>& groups) {
+    return std::ranges::all_of(groups, [](double v) { return v == 0.0; });
+  });
+}
+
 std::string meaning_of(const Blocks& blocks, double false_alarm) {
   return fmt::format("t-test of {} blocks, {} independent groups, false alarm {:.1g} each",
                      blocks.values.size(), groups_of(blocks), false_alarm);

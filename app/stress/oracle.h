@@ -34,6 +34,8 @@ Comparison compare_limit(const Blocks& blocks, double most, double false_alarm);
 // Bit by bit: tolerance 0. Pictures of different sizes never agree.
 Comparison compare_bits(const Image& image, const Image& reference, double factor);
 
+// True if there is no light at all: nothing follows from two such pictures being alike.
+bool is_black(const Blocks& blocks);
 // "5 blocks of 32 groups: t-test, false alarm 1e-11 each"
 std::string meaning_of(const Blocks& blocks, double false_alarm);
 

@@ -17,8 +17,8 @@ constexpr double endless_samples = 1e15;
 BuiltScene build_job(const Job& job, std::vector<std::string>* log) {
   BuildOptions options;
   options.defaults = default_plugins();
-  options.integrator = job.pair.integrator;
-  options.sampler = job.pair.sampler;
+  if (!job.pair.integrator.empty()) options.integrator = job.pair.integrator;
+  if (!job.pair.sampler.empty()) options.sampler = job.pair.sampler;
   options.set = job.set;
   BuiltScene built = build_scene(parse_string(job.scene, "stress-scene", "", log), options);
   if (log != nullptr) log->insert(log->end(), built.log.begin(), built.log.end());
@@ -58,7 +58,12 @@ Blocks Picture::blocks() const {
   const GroupBlocks groups = session_->group_blocks();
   Blocks blocks;
   blocks.common_variance = groups.common_variance;
-  if (groups.means.empty()) return blocks;
+  if (groups.means.empty()) {  // chains that found no light: every group is black
+    const ivec2 edges = (scene_.raster_map->frame().crop_size() + (groups.edge - 1)) / groups.edge;
+    blocks.values.assign(static_cast<size_t>(edges.x * edges.y) + 1,
+                         std::vector<double>(group_count, 0.0));
+    return blocks;
+  }
   const size_t count = groups.means.front().size();
   blocks.values.resize(count + 1);
   for (const std::vector<double>& group : groups.means) {
@@ -74,10 +79,16 @@ Blocks Picture::blocks() const {
 
 Image Picture::image() const { return session_->result(false).image; }
 
+nlohmann::json Picture::layer() const { return session_->result(false).statistics["layers"][0]; }
+
 RenderFigures Picture::figures() const {
   const nlohmann::json s = session_->result(false).statistics;
   RenderFigures f;
   f.dropped = s["rejected"]["total"].get<uint64_t>();
+  for (const auto& [cause, count] : s["rejected"]["causes"].items()) {
+    f.causes +=
+        (f.causes.empty() ? "" : ", ") + cause + " " + std::to_string(count.get<uint64_t>());
+  }
   f.rays_per_second = s["rays"]["per_second"].get<double>();
   const nlohmann::json& layer = s["layers"][0];
   if (!layer["chain"].get<bool>()) return f;

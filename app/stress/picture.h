@@ -14,7 +14,7 @@ namespace pssmlt::stress {
 struct Job {
   std::string scene;  // text
   Pair pair;
-  std::vector<std::string> set;
+  std::vector<std::string> set = {};
   uint64_t seed = 1;
   int threads = 0;  // 0: all
 };
@@ -31,6 +31,7 @@ struct Blocks {
 // What a render's record says beside the picture.
 struct RenderFigures {
   uint64_t dropped = 0;
+  std::string causes;  // of dropped samples, "negative 12, infinite 3"
   double rays_per_second = 0.0;
   std::optional<double> acceptance;
   std::optional<uint64_t> longest_stuck;
@@ -47,6 +48,7 @@ class Picture {
   Blocks blocks() const;
   Image image() const;
   RenderFigures figures() const;
+  nlohmann::json layer() const;  // statistics of the only layer
   const BuiltScene& scene() const { return scene_; }
   // What was said while the scene was loaded and the sampler was prepared.
   const std::vector<std::string>& log() const { return log_; }

@@ -20,7 +20,6 @@ namespace {
 constexpr double least_seconds = 1.0, most_seconds = 20.0;
 constexpr double runs_of_a_budget = 400.0;
 constexpr double more_when_in_doubt = 6.0;
-constexpr double first_samples = 32.0;  // a pixel; doubled until it is decided
 // Blocks of a picture and the whole: how many comparisons one picture stands for.
 constexpr double comparisons_a_picture = 5.0;
 
@@ -51,17 +50,30 @@ std::string blindness(const BuiltScene& built, const std::string& classes, int m
     if (!unseen) return "";
     return fmt::format("{} sees {}: no {}", layer.integrator_name, sees, *unseen);
   }
+  constexpr int enough = 64;  // longer paths are made of the same letters
   if (!PathExpression::disjoint(PathExpression(sees), PathExpression(classes), features, 0,
-                                max_depth)) {
+                                std::min(max_depth, enough))) {
     return "";
   }
   return fmt::format("{} sees {}: none of the light of {}", layer.integrator_name, sees, classes);
 }
 
-// Does it meet lights by directions that rough surfaces or media sample? A path that ends in a
-// medium that emits is found in no other way.
-bool follows_lobes(const Integrator& integrator) {
-  return PathExpression(integrator.sees()).matches("VDE");
+// Why an integrator that sees the light in principle does not find it here; "" if it does. What it
+// does is told from what it sees: a medium that emits is found by rays from the camera alone,
+// behind a rough surface by directions that it sampled alone.
+std::string practical_blindness(const Point& point, const Layer& layer) {
+  const PathExpression sees(layer.integrator->sees());
+  if (point.aimed && !sees.matches("VE")) {
+    return layer.integrator_name +
+           " follows no rays from the camera, and the picture is too small "
+           "a part of the scene to be hit from the lights";
+  }
+  if (point.narrow && !sees.matches("VDE")) {
+    return layer.integrator_name +
+           " does not meet lights along sampled lobes, and these are too "
+           "narrow to be found by points drawn on light or lens";
+  }
+  return "";
 }
 
 }  // namespace
@@ -91,12 +103,11 @@ std::vector<Entry> Runner::grid() const {
   std::vector<Entry> entries;
   for (size_t c = 0; c < cases_.size(); ++c) {
     for (size_t p = 0; p < cases_[c].points.size(); ++p) {
-      if (!cases_[c].techniques) {
-        entries.push_back({c, p, {}, {}});
-        continue;
-      }
-      for (const std::string& i : options_.integrators)
-        for (const std::string& s : options_.samplers) entries.push_back({c, p, {i, s}, {}});
+      const Over over = cases_[c].over;
+      const std::vector<std::string> none = {""};
+      for (const std::string& i : over == Over::pairs ? options_.integrators : none)
+        for (const std::string& s : over == Over::once ? none : options_.samplers)
+          entries.push_back({c, p, {i, s}, {}});
     }
   }
   return entries;
@@ -190,6 +201,7 @@ Job Runner::job(const Case& c, const Point& point, const Pair& pair,
           .seed = options_.seed,
           .threads = options_.threads};
   const std::string& classes = point.classes.empty() ? c.classes : point.classes;
+  if (pair.integrator.empty()) return job;
   if (has_parameter("integrator", pair.integrator, "maxdepth")) {
     job.set.push_back("integrator.maxdepth=" + std::to_string(c.max_depth));
   }
@@ -227,11 +239,8 @@ Outcome Runner::judge(const Case& c, const Point& point, const Pair& pair, doubl
   const std::string& classes = point.classes.empty() ? c.classes : point.classes;
   const bool all = std::holds_alternative<Means>(point.oracle);
   outcome.reason = blindness(picture.scene(), classes, c.max_depth, all);
-  if (point.narrow && outcome.reason.empty() &&
-      !follows_lobes(*picture.scene().layers.front().integrator)) {
-    outcome.reason = pair.integrator +
-                     " does not meet lights along sampled lobes, and these are too narrow to be "
-                     "found by points drawn on light or lens";
+  if (outcome.reason.empty()) {
+    outcome.reason = practical_blindness(point, picture.scene().layers.front());
   }
   if (!outcome.reason.empty()) {
     outcome.verdict = Verdict::cannot_see;
@@ -246,6 +255,10 @@ Outcome Runner::judge(const Case& c, const Point& point, const Pair& pair, doubl
     outcome.tolerance = 0.0;
     outcome.meaning = "bit by bit";
     if (!comparison.holds) outcome.reason = comparison.where;
+    if (is_black(picture.blocks())) {
+      outcome.verdict = Verdict::undecided;
+      outcome.reason = "the picture is black";
+    }
   } else {
     judge_statistics(c, point, pair, seconds, picture, outcome);
   }
@@ -256,10 +269,14 @@ Outcome Runner::judge(const Case& c, const Point& point, const Pair& pair, doubl
   if (usual.rays_per_second > 0.0) {
     outcome.relative_speed = figures.rays_per_second / usual.rays_per_second;
   }
-  if (figures.dropped > 0) {
+  if (point.drops.empty() ? figures.dropped > 0
+                          : std::ranges::none_of(point.drops, [&](const std::string& cause) {
+                              return figures.causes.find(cause) != std::string::npos;
+                            })) {
     outcome.verdict = Verdict::fail;
-    outcome.reason += fmt::format("{}{} samples were dropped", outcome.reason.empty() ? "" : "; ",
-                                  figures.dropped);
+    outcome.reason +=
+        fmt::format("{}{} samples were dropped{}{}", outcome.reason.empty() ? "" : "; ",
+                    figures.dropped, figures.causes.empty() ? "" : ": ", figures.causes);
   }
   for (const std::string& warning : point.warnings) {
     if (contains(picture.log(), warning)) continue;
@@ -284,7 +301,7 @@ void Runner::judge_statistics(const Case& c, const Point& point, const Pair& pai
   };
   Comparison comparison;
   Blocks blocks;
-  for (double samples = first_samples;; samples = picture.samples_per_pixel()) {
+  for (double samples = c.least_samples;; samples = picture.samples_per_pixel()) {
     picture.add(samples);
     blocks = picture.blocks();
     comparison = compare(blocks);
@@ -294,7 +311,11 @@ void Runner::judge_statistics(const Case& c, const Point& point, const Pair& pai
   outcome.deviation = comparison.deviation;
   outcome.tolerance = comparison.tolerance;
   outcome.meaning = meaning_of(blocks, false_alarm_);
-  if (!comparison.holds) {
+  if (std::holds_alternative<SameMeans>(point.oracle) && is_black(blocks) &&
+      is_black(polite(c, pair, seconds).blocks)) {
+    outcome.verdict = Verdict::undecided;
+    outcome.reason = "both pictures are black";
+  } else if (!comparison.holds) {
     outcome.verdict = Verdict::fail;
     outcome.reason = comparison.where;
   } else if (!(comparison.widest <= c.demand)) {
@@ -321,7 +342,7 @@ const Runner::Polite& Runner::polite(const Case& c, const Pair& pair, double sec
       c.points, [](const Point& x) { return std::holds_alternative<SameMeans>(x.oracle); });
   if (bits) polite_job.seed = options_.seed;
   Picture picture(polite_job);
-  picture.add(bits ? c.samples : first_samples);
+  picture.add(bits ? c.samples : c.least_samples);
   if (bits) p.image = picture.image();
   for (; means && picture.seconds() < seconds; picture.add(picture.samples_per_pixel())) {
     const Blocks b = picture.blocks();

@@ -13,6 +13,7 @@
 #include "app/stress/report_page.h"
 #include "app/stress/stress_options.h"
 #include "app/stress/table.h"
+#include "app/stress/technique.h"
 #include "core/base/log.h"
 
 namespace pssmlt {
@@ -59,6 +60,7 @@ int run_stress(const Arguments& arguments) {
   if (o.list) return print_list(o.cases), 0;
   for (const std::string& note : o.notes) log_info(note);
   make_folder(o.output);
+  add_faulty_plugins();
   catch_signals(stopping);
   o.runner.program = fs::read_symlink("/proc/self/exe").string();
   o.runner.stop = [] { return stop_requested().load(); };

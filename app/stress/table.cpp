@@ -14,7 +14,8 @@ namespace {
 using nlohmann::json;
 
 std::string name_of(const Pair& pair) {
-  return pair.integrator.empty() ? "-" : pair.sampler + "(" + pair.integrator + ")";
+  if (pair.integrator.empty()) return pair.sampler.empty() ? "once" : pair.sampler;
+  return pair.sampler + "(" + pair.integrator + ")";
 }
 
 std::string number(const std::optional<double>& value) {

@@ -16,6 +16,7 @@ bool has_parameter(const std::string& kind, const std::string& plugin, const std
 
 std::vector<std::string> small_settings(const Pair& pair) {
   std::vector<std::string> set;
+  if (pair.sampler.empty()) return set;
   for (const auto& [name, value] :
        {std::pair("bootstrapsamples", "8192"), std::pair("chains", "64")}) {
     if (has_parameter("sampler", pair.sampler, name)) {
@@ -24,6 +25,8 @@ std::vector<std::string> small_settings(const Pair& pair) {
   }
   return set;
 }
+
+void add_faulty_plugins() { Registry::instance().add_subfolder("stress"); }
 
 std::vector<std::string> chosen_plugins(const std::string& kind, const std::string& text) {
   const std::vector<std::string> known = Registry::instance().names(kind);

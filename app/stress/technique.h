@@ -12,6 +12,9 @@ namespace pssmlt::stress {
 bool has_parameter(const std::string& kind, const std::string& plugin, const std::string& name);
 // Settings for small pictures: few chains, few bootstrap samples, as far as the sampler has them.
 std::vector<std::string> small_settings(const Pair& pair);
+// Plugins that fail on purpose (folder stress/ of the plugins), which generated scenes name, are
+// found from here on.
+void add_faulty_plugins();
 // "all", or names separated by commas; in the registry's order. Throws Error, with a suggestion,
 // for names that are not there.
 std::vector<std::string> chosen_plugins(const std::string& kind, const std::string& text);

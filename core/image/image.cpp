@@ -146,15 +146,23 @@ void write_image(const std::string& path, const Image& image, const ImageMetadat
                  const DisplaySettings& display) {
   const std::string format = format_of(path);
   TemporaryFile temporary(path);
-  if (contains(display_formats, format)) {
-    const ByteImage bytes = to_display(image, display);
-    module_function<WriteBytesFunction>("image_io", write_bytes_symbol)(temporary.path(), format,
-                                                                        bytes);
-  } else if (contains(float_formats, format)) {
-    module_function<WriteFunction>("image_io", write_symbol)(temporary.path(), format, image,
-                                                             metadata);
-  } else {
-    throw Failure("cannot write " + path + ": unknown image format '" + format + "'");
+  try {
+    if (contains(display_formats, format)) {
+      const ByteImage bytes = to_display(image, display);
+      module_function<WriteBytesFunction>("image_io", write_bytes_symbol)(temporary.path(), format,
+                                                                          bytes);
+    } else if (contains(float_formats, format)) {
+      module_function<WriteFunction>("image_io", write_symbol)(temporary.path(), format, image,
+                                                               metadata);
+    } else {
+      throw Failure("cannot write " + path + ": unknown image format '" + format + "'");
+    }
+  } catch (const Failure& failure) {
+    // The file that was asked for, not the one beside it that only the writer knows.
+    std::string message = failure.what();
+    const size_t at = message.find(temporary.path());
+    if (at != std::string::npos) message.replace(at, temporary.path().size(), path);
+    throw Failure(message);
   }
   temporary.commit();
 }

@@ -67,6 +67,10 @@ void Registry::add_path(const std::string& folder) {
   impl_->path.insert(impl_->path.begin(), folder);
 }
 
+void Registry::add_subfolder(const std::string& name) {
+  impl_->path.push_back(own_plugin_folder() + "/" + name);
+}
+
 const PluginDescriptor* Registry::load(const std::string& file, const Location& where) {
   const std::lock_guard lock(impl_->mutex);
   if (const auto found = impl_->loaded.find(file); found != impl_->loaded.end()) {

@@ -35,6 +35,8 @@ class Registry {
   std::vector<std::string> loaded() const;
   // Puts a folder in front of the search path.
   void add_path(const std::string& folder);
+  // Puts this folder of the plugins beside the library at the end of the search path.
+  void add_subfolder(const std::string& name);
   // Loads a module (modules/NAME.so: image input/output, display transforms) and returns a symbol.
   void* module(const std::string& name, const std::string& symbol);
 

@@ -191,6 +191,7 @@ BuiltScene SceneBuilder::build() {
   build_lights();
   build_shapes();
   tell_coarse_grid();
+  tell_touching_interfaces();
   finish_lights();
   finish_features();
   set_hashes(built_, description_, options_, settings);

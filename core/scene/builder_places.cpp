@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/fibre.h"
+#include "core/scene/accel.h"
 #include "core/scene/scene_builder.h"
 
 namespace pssmlt {
@@ -26,7 +28,54 @@ void refuse_beyond_reach(const Bounds& bounds, const Location& where) {
   }
 }
 
+// Hair crosses hair everywhere, and its sheets have no two sides that could be mixed up.
+bool refracts(const Primitive& p) {
+  return p.transmits && !p.bounds_medium && !is_of_fibres(*p.material);
+}
+
+// Another surface that light crosses, so close to this point that a ray leaving one starts beyond
+// the other; null if there is none.
+const Primitive* too_close(const Accel& accel, const Primitive& own, const SurfaceSample& at) {
+  constexpr float margin = 4.f;  // offsets of rays, which start at an error bound's distance
+  const float far = margin * glm::dot(glm::abs(at.normal), at.error);
+  for (const float side : {1.f, -1.f}) {
+    const Ray ray{.origin = at.position + side * far * at.normal,
+                  .direction = -side * at.normal,
+                  .t_max = 2.f * far};
+    RawHit hit;
+    if (!accel.intersect(ray, hit) || hit.primitive == &own) continue;
+    if (refracts(*hit.primitive)) return hit.primitive;
+  }
+  return nullptr;
+}
+
 }  // namespace
+
+// Between two surfaces that floats cannot tell apart light would cross one only: glass upon glass
+// would seem to be entered twice, or left twice. Some points of every refracting surface are looked
+// at; shapes inside of objects are not.
+void SceneBuilder::tell_touching_interfaces() {
+  constexpr size_t most_points = 8192, points_a_shape = 64;
+  std::vector<const Primitive*> found;
+  for (const auto& p : scene_->primitives_) {
+    if (refracts(*p) && p->shape->area() > 0.f) found.push_back(p.get());
+  }
+  if (found.size() < 2) return;
+  const size_t points = std::min(points_a_shape, most_points / found.size() + 1);
+  for (const Primitive* const p : found) {
+    for (size_t i = 0; i < points; ++i) {
+      // The R2 sequence: additive recurrence by the plastic number.
+      const vec2 u(glm::fract(.5 + .7548776662466927 * static_cast<double>(i)),
+                   glm::fract(.5 + .5698402909980532 * static_cast<double>(i)));
+      const Primitive* const other = too_close(*scene_->accel_, *p, p->shape->sample_area(u));
+      if (other == nullptr) continue;
+      built_.log.push_back("warning: " + p->name + " and " + other->name +
+                           " lie so close to each other that rays pass one of them only: light "
+                           "that is refracted there is wrong; leave a gap, or one surface out");
+      return;
+    }
+  }
+}
 
 void SceneBuilder::check_place(const Shape& shape, const Transform& placed, const Location& where) {
   const Bounds bounds = bounds_of(shape);

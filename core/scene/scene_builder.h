@@ -53,6 +53,7 @@ class SceneBuilder {
   void check_place(const Shape& shape, const Transform& placed, const Location& where);
   void note_coarse_grid(const Bounds& box, const Transform& placed, const Location& where);
   void tell_coarse_grid();
+  void tell_touching_interfaces();
   struct PlacedInstance {
     Accel::Instance instance;
     Location where;

@@ -147,7 +147,7 @@ std::vector<BadInput> bad_directives() {
        {"chains"},
        "1:18"},
       {"NoLargeSteps",
-       options("Sampler \"pssmlt\" \"float largestepprobability\" 0"),
+       options("Sampler \"pssmlt\" \"float largestepprobability\" -1"),
        {"largestepprobability"},
        "1:18"},
       {"ClampUnderChains",

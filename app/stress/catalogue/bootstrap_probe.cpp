@@ -1,10 +1,13 @@
-// What a render says of its error when hardly any bootstrap sample found light.
+// What renders by chains say of themselves where chains do badly.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/defaults.h"
 #include "app/stress/catalogue/probes.h"
 #include "app/stress/catalogue/scenes.h"
 #include "app/stress/picture.h"
 #include "app/stress/technique.h"
+#include "core/base/log.h"
 #include "core/render/error_estimate.h"
 
 namespace pssmlt::stress {
@@ -26,6 +29,7 @@ Outcome few_contributing(const ProbeContext& context, double radius) {
           .pair = context.pair,
           .set = small_settings(context.pair),
           .threads = context.threads};
+  const LogCapture capture;
   const BuiltScene built = build_job(job, nullptr);
   RenderSettings settings;
   settings.spp = 64;
@@ -39,6 +43,35 @@ Outcome few_contributing(const ProbeContext& context, double radius) {
   outcome.reason = fmt::format("{} of {} bootstrap samples contribute; the error is {}",
                                contributing, report["bootstrap_samples"].get<uint64_t>(),
                                result.error.known ? "known" : "unknown: " + result.error.why);
+  return outcome;
+}
+
+Outcome no_large_steps(const ProbeContext& context) {
+  Outcome outcome;
+  if (!has_parameter("sampler", context.pair.sampler, "largestepprobability")) {
+    outcome.verdict = Verdict::cannot_see;
+    outcome.reason = context.pair.sampler + " has no large steps";
+    return outcome;
+  }
+  Job job{.scene = lab({}),
+          .pair = {default_plugins().integrator, context.pair.sampler},
+          .threads = context.threads};
+  job.set = small_settings(job.pair);
+  job.set.push_back("sampler.largestepprobability=0");
+  Picture picture(job);
+  picture.add(64);
+  const nlohmann::json layer = picture.layer();
+  const bool warned = std::ranges::any_of(picture.log(), [](const std::string& line) {
+    return line.starts_with("warning") && line.find("large steps") != std::string::npos;
+  });
+  const bool told = layer.contains("efficiency");
+  outcome.verdict = warned && told ? Verdict::pass : Verdict::fail;
+  outcome.reason = !warned ? "no warning" : !told ? "no report of how chains differ" : "";
+  if (told) {
+    const nlohmann::json& ratio = layer["efficiency"]["between_over_within"];
+    outcome.reason = fmt::format("between-chain over within-chain variance {:.3g}, at worst {:.3g}",
+                                 ratio["median"].get<double>(), ratio["worst"].get<double>());
+  }
   return outcome;
 }
 

@@ -62,7 +62,7 @@ Case white_cloud(const std::string& name, const std::string& about, double deman
          .name = name,
          .about = about,
          .classes = "ID*E",
-         .max_depth = 60000,
+         .max_depth = 1000000,
          .demand = demand};
   c.polite = [] { return white_ball(homogeneous(0.0, 1.0)); };
   for (const auto& [value, medium] : media) {
@@ -110,7 +110,7 @@ Case half_space() {
          .name = "half-space",
          .about = "albedo of a half space in a white sky: Chandrasekhar's H function",
          .classes = "ID+E",
-         .max_depth = 60000};
+         .max_depth = 1000000};
   for (const double lost : {1e-5, 1e-3, 1e-2, .1, .5}) {
     const double far = 12.0 * std::max(1.3, 1.0 / std::sqrt(3.0 * lost));
     const auto scene = [lost, far] {
@@ -119,7 +119,10 @@ Case half_space() {
              "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n";
     };
     const double value = 1.0 - std::sqrt(lost) * h_function(1.0 - lost);
-    c.points.push_back({fmt::format("1-{}", lost), scene, Means{{value}, 3e-3}});
+    c.points.push_back({.value = fmt::format("1-{}", lost),
+                        .scene = scene,
+                        .oracle = Means{{value}, 3e-3},
+                        .aimed = true});
   }
   return c;
 }

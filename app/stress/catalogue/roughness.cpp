@@ -117,7 +117,7 @@ void add_roughness_cases(Cases& cases) {
   Case pdf{.group = 4,
            .name = "density-integral",
            .about = "roughness: the density of directions integrates to what is drawn",
-           .techniques = false};
+           .over = Over::once};
   for (const double alpha : {1.01e-3, 2e-3, 1e-2, .1, .5, 1.0}) {
     pdf.points.push_back({fmt::format("{}", alpha), {}, Probe{[alpha](const ProbeContext&) {
                             return integrate_density(alpha);
