@@ -13,6 +13,7 @@
 #include <span>
 
 #include "core/base/error.h"
+#include "core/base/float_traps.h"
 #include "core/image/embedded_file.h"
 #include "core/image/encoding.h"
 #include "core/image/image_file.h"
@@ -96,6 +97,7 @@ ByteImage to_display(const Image& image, const DisplaySettings& display) {
       rgb[3 * i + c] = std::isnan(v) ? 0.f : std::clamp(v, -65504.f, 65504.f);
     }
   }
+  const NoFloatTraps library;
   const auto show = module_function<DisplayFunction>("display", display_symbol);
   show(rgb, image.width, image.height, display.view);
   ByteImage result{image.width, image.height, 3, std::vector<uint8_t>(rgb.size())};
@@ -113,6 +115,7 @@ int ImageFile::find(const std::string& name) const {
 }
 
 ImageFile read_image_file(const std::string& path) {
+  const NoFloatTraps library;
   ImageFile file;
   if (const auto embedded = find_embedded_file(path)) {
     module_function<ReadBytesFunction>("image_io", read_bytes_symbol)(*embedded, file);
@@ -144,6 +147,7 @@ Image decode_image(const ImageFile& file, const std::string& encoding) {
 
 void write_image(const std::string& path, const Image& image, const ImageMetadata& metadata,
                  const DisplaySettings& display) {
+  const NoFloatTraps library;
   const std::string format = format_of(path);
   TemporaryFile temporary(path);
   try {
@@ -181,6 +185,7 @@ void check_writable(const std::string& path) {
 }
 
 void check_view(const DisplaySettings& display) {
+  const NoFloatTraps library;
   std::vector<float> pixel(3);
   module_function<DisplayFunction>("display", display_symbol)(pixel, 1, 1, display.view);
 }

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/float_traps.h"
 #include "core/base/thread_order.h"
 
 #if defined(__SSE2__)
@@ -86,6 +87,7 @@ void WorkerPool::run(int count, const std::function<void(int, int)>& body) {
         tbb::blocked_range<int>(0, count, 1),
         [&](const tbb::blocked_range<int>& range) {
           const FlushDenormals flush;
+          const FloatTraps traps;
           const int slot = tbb::this_task_arena::current_thread_index();
           for (int unit = range.begin(); unit != range.end(); ++unit) body(unit, slot);
         },

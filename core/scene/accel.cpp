@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/float_traps.h"
 #include "core/base/thread_order.h"
 
 namespace pssmlt {
@@ -28,6 +29,7 @@ void user_bounds(const RTCBoundsFunctionArguments* args) {
 }
 
 void user_intersect(const RTCIntersectFunctionNArguments* args) {
+  const FloatTraps traps(traps_floats);
   if (args->valid[0] == 0) return;
   const auto* const geometry = static_cast<const UserGeometry*>(args->geometryUserPtr);
   auto* const rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
@@ -45,6 +47,7 @@ void user_intersect(const RTCIntersectFunctionNArguments* args) {
 }
 
 void user_occluded(const RTCOccludedFunctionNArguments* args) {
+  const FloatTraps traps(traps_floats);
   if (args->valid[0] == 0) return;
   const auto* const geometry = static_cast<const UserGeometry*>(args->geometryUserPtr);
   auto* const r = reinterpret_cast<RTCRay*>(args->ray);
@@ -230,6 +233,7 @@ double Accel::reach_of(const Transform& to_render) {
 void Accel::build(const std::vector<const Primitive*>& primitives,
                   const std::vector<std::vector<const Primitive*>>& objects,
                   std::vector<Instance> all_instances) {
+  const NoFloatTraps embree;
   Impl& d = *impl_;
   d.primitives = primitives;
   d.objects = objects;
@@ -271,7 +275,10 @@ bool Accel::intersect(const Ray& ray, RawHit& hit) const {
   query.ray = to_embree(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->top, &context, &query);
+  {
+    const NoFloatTraps embree;
+    rtcIntersect1(impl_->top, &context, &query);
+  }
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.t = query.ray.tfar;
   hit.time = ray.time;
@@ -293,6 +300,7 @@ bool Accel::occluded(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay query = to_embree(ray);
+  const NoFloatTraps embree;
   rtcOccluded1(impl_->top, &context, &query);
   return query.tfar < 0.f;
 }

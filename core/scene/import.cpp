@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/base/float_traps.h"
 #include "core/plugin/registry.h"
 
 namespace pssmlt {
@@ -29,6 +30,7 @@ bool is_importable(const std::string& path) { return !module_of(path).empty(); }
 
 void import_file(const ImportedFile& file, SceneState& state, SceneDescription& scene,
                  std::vector<std::string>* log) {
+  const NoFloatTraps library;
   const auto read = reinterpret_cast<ImportFunction*>(
       Registry::instance().module(module_of(file.path), import_symbol));
   std::vector<std::string> unheard;
