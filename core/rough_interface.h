@@ -16,9 +16,9 @@ inline float refracted_radiance_scale(float eta, Transport mode) {
 }
 
 // True where facets bend light by so little that directions in float do not tell the lobe's shape:
-// half vectors are a difference of directions |eta - 1| apart, known to some 42 roundings, and a lobe of
-// facets of width alpha needs them to alpha (docs/numerics.md). Such a boundary is smooth; what it
-// reflects is less than a share |eta - 1| of diffuse light.
+// half vectors are a difference of directions |eta - 1| apart, known to some 42 roundings, and a
+// lobe of facets of width alpha needs them to alpha (docs/numerics.md). Such a boundary is smooth;
+// what it reflects is less than a share |eta - 1| of diffuse light.
 inline bool refracts_sharply(float eta, const Ggx& ggx) {
   return ggx.is_smooth() || std::abs(eta - 1.f) * ggx.width() < 0x1p-16f;
 }

@@ -16,8 +16,9 @@ namespace pssmlt {
 class RasterMap;
 class Archive;
 
-// Groups for the error estimate. Either each is an estimate of the whole picture, independent of the
-// others (whole chains, each in one group for life); or they come in pairs (Sampler::pairs_groups()).
+// Groups for the error estimate. Either each is an estimate of the whole picture, independent of
+// the others (whole chains, each in one group for life); or they come in pairs
+// (Sampler::pairs_groups()).
 inline constexpr int group_count = 32;
 inline constexpr int pair_count = group_count / 2;
 
@@ -74,10 +75,10 @@ class Sampler {
   // Same for one group alone (the sum over groups of sums is the total): the factor that makes a
   // group's sum an estimate of the whole picture; 0 if the group has nothing yet.
   virtual double group_scale(int plane, int group, int64_t rounds) const = 0;
-  // True: groups 2c and 2c + 1 hold samples of the same part c of the picture's samples (say, some of
-  // its pixels), independent of each other and of other pairs; the sum over c is the picture. The
-  // error is then told from the pairs' differences, which leaves samples of one group free to depend
-  // on each other. group_scale() is that of the group's share of samples all the same.
+  // True: groups 2c and 2c + 1 hold samples of the same part c of the picture's samples (say, some
+  // of its pixels), independent of each other and of other pairs; the sum over c is the picture.
+  // The error is then told from the pairs' differences, which leaves samples of one group free to
+  // depend on each other. group_scale() is that of the group's share of samples all the same.
   virtual bool pairs_groups() const { return false; }
   // Relative variance of a factor common to all groups (b), to be added to the picture's.
   virtual double scale_relative_variance() const { return 0.0; }

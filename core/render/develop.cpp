@@ -9,7 +9,8 @@
 namespace pssmlt {
 namespace {
 
-constexpr int strip = 4096;  // pixels that one thread develops at a time
+constexpr double most_degrees = 1e6;  // of freedom: as good as any number
+constexpr int strip = 4096;           // pixels that one thread develops at a time
 
 // A half's sum times this is an estimate of the whole: samples add up, scales are their inverse.
 std::array<double, 2> half_scales(const std::array<double, group_count>& group) {
@@ -219,8 +220,9 @@ ErrorEstimate Developer::error() const {
 }
 
 void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
-  double variance = 0.0;
+  double variance = 0.0, uncertain = 0.0;
   int least = group_count;
+  bool known = true;
   for (int l = 0; l < film_.layers(); ++l) {
     const LayerScales& layer = layers_[static_cast<size_t>(l)];
     std::vector<GroupMean> groups;
@@ -230,14 +232,19 @@ void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
       groups.push_back({sum * picture_scale_ / film_.pixels(), r.weight});
     }
     const MeanEstimate m = estimate_mean(groups);
-    least = std::min({least, m.groups, static_cast<int>(layer.group_samples())});
+    least = std::min(least, m.groups);
+    known = known && layer.group_samples() >= least_groups;
     estimate.mean += m.mean;
     variance += m.variance + layer.common_variance * m.mean * m.mean;
+    if (m.groups > 1) uncertain += m.variance * m.variance / (m.groups - 1.0);
   }
-  estimate.mean_known = least >= least_groups;
+  estimate.mean_known = known && least >= least_groups;
   if (!estimate.mean_known) return;
   estimate.mean_error = std::sqrt(variance);
-  const double half_width = student_quantile(least - 1.0) * estimate.mean_error;
+  // Welch and Satterthwaite; b's variance, from very many samples, is known beside the groups'.
+  const double degrees =
+      uncertain > 0.0 ? std::min(variance * variance / uncertain, most_degrees) : most_degrees;
+  const double half_width = student_quantile(degrees) * estimate.mean_error;
   estimate.mean_low = estimate.mean - half_width;
   estimate.mean_high = estimate.mean + half_width;
 }

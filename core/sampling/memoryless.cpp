@@ -58,13 +58,13 @@ void MemorylessSampler::start(const SamplerContext& context) {
   for (int64_t p = 0; p < pixels; ++p) {
     const auto subset = static_cast<size_t>(subset_of(static_cast<int>(p)));
     ++subset_pixels_[subset];
-    ++part_pixels_[subset][sample_id(static_cast<int>(p), 0).part];
+    ++part_pixels_[subset][sample_id({p % size_.x, p / size_.x}, 0).part];
   }
 }
 
-SampleId MemorylessSampler::sample_id(int pixel, uint64_t sweep) const {
+SampleId MemorylessSampler::sample_id(const ivec2& at, uint64_t sweep) const {
   SampleId id;
-  id.pixel = static_cast<uint32_t>(pixel);
+  id.pixel = static_cast<uint32_t>(at.y * size_.x + at.x);
   id.sweep = sweep;
   id.nth = sweep / 2;
   const int pixels = size_.x * size_.y;
@@ -79,7 +79,6 @@ SampleId MemorylessSampler::sample_id(int pixel, uint64_t sweep) const {
     id.part_pixels = static_cast<uint32_t>((pixels + pair_count - 1) / pair_count);
     return id;
   }
-  const ivec2 at(pixel % size_.x, pixel / size_.x);
   const ivec2 places = (size_ + (edge - 1)) / edge;
   id.part = static_cast<uint32_t>(at.x % edge + edge * (at.y % edge));
   id.place = static_cast<uint32_t>(at.x / edge + at.y / edge * places.x);
@@ -103,7 +102,7 @@ void MemorylessSampler::run(int64_t round, int unit, SplatSink& sink, Worker& wo
     for (int x = low.x; x < high.x; ++x) {
       const int pixel = y * size_.x + x;
       if (subset_of(pixel) != subset) continue;
-      run_pixel(sample_id(pixel, sweep), plane_of_light, sink, worker, light);
+      run_pixel(sample_id({x, y}, sweep), plane_of_light, sink, worker, light);
     }
   }
 }
@@ -176,7 +175,8 @@ bool MemorylessSampler::replay(const std::string& key, Worker& worker) {
   if (!parse_sample_name(key, name) || name.name != name_ || name.seed != seed_) return false;
   const int64_t pixels = int64_t{size_.x} * size_.y;
   if (name.pixel < 0 || name.pixel >= pixels || name.index < 0) return false;
-  const SampleId id = sample_id(static_cast<int>(name.pixel), static_cast<uint64_t>(name.index));
+  const SampleId id =
+      sample_id({name.pixel % size_.x, name.pixel / size_.x}, static_cast<uint64_t>(name.index));
   Source source(*this, id);
   worker.sample.begin(source);
   worker.sample.set_pixel(static_cast<int>(id.pixel));

@@ -71,7 +71,7 @@ class MemorylessSampler : public Sampler {
                  Splats& light) const;
   uint64_t samples_before(int64_t rounds) const;
   uint64_t group_samples(int group, int64_t rounds) const;
-  SampleId sample_id(int pixel, uint64_t sweep) const;
+  SampleId sample_id(const ivec2& at, uint64_t sweep) const;
 
   const char* name_;
   double spp_;

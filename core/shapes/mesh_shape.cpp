@@ -12,9 +12,10 @@ namespace {
 // Humphreys 2023, section 6.8.5).
 constexpr float interpolation_error = 7.f * 0x1p-24f / (1.f - 7.f * 0x1p-24f);
 
-// How far off Embree may see the plane of a sliver [m]: it takes the normal from edges that start at
-// the ray, with 4 roundings of the longest edge L, which the height w over that edge divides (4 u L^2
-// / w, docs/numerics.md). No further than w, lest rays start behind what is near; 0 for other shapes.
+// How far off Embree may see the plane of a sliver [m]: it takes the normal from edges that start
+// at the ray, with 4 roundings of the longest edge L, which the height w over that edge divides (4
+// u L^2 / w, docs/numerics.md). No further than w, lest rays start behind what is near; 0 for other
+// shapes.
 float sliver_error(const vec3& p0, const vec3& p1, const vec3& p2, double area) {
   const float longest = std::sqrt(
       std::max({length_squared(p1 - p0), length_squared(p2 - p1), length_squared(p0 - p2)}));
