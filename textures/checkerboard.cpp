@@ -32,6 +32,9 @@ class Checkerboard final : public Texture<T> {
   T evaluate(const Hit& hit) const override {
     return is_second(hit) ? second_->evaluate(hit) : first_->evaluate(hit);
   }
+  bool reads_derivatives() const override {
+    return first_->reads_derivatives() || second_->reads_derivatives();
+  }
 
  private:
   bool is_second(const Hit& hit) const {

@@ -28,6 +28,9 @@ class DirectionMix final : public Texture<T> {
     if (amount == 1.f) return first_->evaluate(hit);
     return amount * first_->evaluate(hit) + (1.f - amount) * second_->evaluate(hit);
   }
+  bool reads_derivatives() const override {
+    return first_->reads_derivatives() || second_->reads_derivatives();
+  }
 
  private:
   std::shared_ptr<const Texture<T>> first_, second_;

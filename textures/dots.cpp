@@ -39,6 +39,9 @@ class Dots final : public Texture<T> {
   T evaluate(const Hit& hit) const override {
     return is_in_dot(mapping_.map(hit)) ? inside_->evaluate(hit) : outside_->evaluate(hit);
   }
+  bool reads_derivatives() const override {
+    return inside_->reads_derivatives() || outside_->reads_derivatives();
+  }
 
  private:
   TextureMapping2D mapping_;

@@ -17,6 +17,7 @@ class Threshold final : public Texture<float> {
     return std::isnan(v) ? v : v >= value_ ? 1.f : 0.f;
   }
   bool constant() const override { return texture_->constant(); }
+  bool reads_derivatives() const override { return texture_->reads_derivatives(); }
 
  private:
   std::shared_ptr<const Texture<float>> texture_;

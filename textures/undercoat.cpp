@@ -31,6 +31,8 @@ class Undercoat final : public Texture<Rgb> {
   Rgb evaluate(const Hit& hit) const override {
     return coat_->base_of(clamp_reflectance(seen_->evaluate(hit)), eta_);
   }
+  bool constant() const override { return seen_->constant(); }
+  bool reads_derivatives() const override { return seen_->reads_derivatives(); }
 
  private:
   std::shared_ptr<const Texture<Rgb>> seen_;

@@ -11,8 +11,8 @@ namespace pssmlt {
 
 // Which path a value came from, for images by path length and by strategy.
 struct PathTag {
-  uint32_t bounces = 0;  // scattering vertices
-  uint8_t s = 0, t = 0;  // vertices on the light and camera subpaths (bidirectional strategies)
+  uint32_t bounces = 0;   // scattering vertices
+  uint16_t s = 0, t = 0;  // vertices on the light and camera subpaths (bidirectional strategies)
 };
 
 // Both kinds of splat have one scale: the picture is (pixels in the window / number of samples)
@@ -23,8 +23,10 @@ struct Splat {
   Rgb value{0.f};     // [W/(m^2 sr)]
   PathTag tag;
   bool from_camera = true;
-  std::array<uint8_t, 7> unused{};  // stored chains have no undefined bytes
+  std::array<uint8_t, 3> unused{};  // stored chains have no undefined bytes
 };
+static_assert(sizeof(Splat) == sizeof(dvec2) + sizeof(Rgb) + sizeof(PathTag) + 4);
+static_assert(sizeof(PathTag) == 8);
 
 class Splats {
  public:

@@ -212,7 +212,7 @@ TEST(Integrators, RefuseParametersThatDoNotFit) {
   const std::pair<const char*, const char*> bad[] = {{"path", "integrator.maxdepth=-1"},
                                                      {"path", "integrator.mindepth=-1"},
                                                      {"path", "integrator.mindepth=9"},
-                                                     {"path", "integrator.maxdepth=70000"},
+                                                     {"path", "integrator.maxdepth=300000000"},
                                                      {"path", "integrator.paths=L.*X"},
                                                      {"path", "integrator.lightsampler=any"},
                                                      {"bdpt", "integrator.heuristic=best"},

@@ -30,7 +30,7 @@ Hit without_derivatives() {
 
 vec3 random_direction(RandomStream& random) {
   const float z = 2.f * random.next() - 1.f;
-  const float azimuth = two_pi * random.next();
+  const float azimuth = 2.f * pi * random.next();
   const float r = std::sqrt(std::max(0.f, 1.f - z * z));
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
@@ -94,7 +94,7 @@ void expect_turnable(const Material& material, const std::string& name) {
   for (int i = 0; i < 300; ++i) {
     const vec3 wo = random_direction(random);
     const vec3 wi = random_direction(random);
-    const float angle = two_pi * random.next();
+    const float angle = 2.f * pi * random.next();
     const Rgb value = plain->eval(wo, wi, Transport::radiance);
     EXPECT_EQ(value, full->eval(wo, wi, Transport::radiance)) << name;
     const Rgb there = plain->eval(turned(wo, angle), turned(wi, angle), Transport::radiance);
