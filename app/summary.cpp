@@ -33,6 +33,7 @@ std::string times(const json& s) {
 std::string report_text(const json& report) {
   std::string text;
   for (const auto& [name, value] : report.items()) {
+    if (value.is_array()) continue;  // --json has them
     std::string words = name;
     std::replace(words.begin(), words.end(), '_', ' ');
     std::string shown;

@@ -7,10 +7,9 @@
 #include <numeric>
 
 #include "app/defaults.h"
+#include "app/stress/blindness.h"
 #include "app/stress/oracle.h"
 #include "app/stress/technique.h"
-#include "core/path/path_expression.h"
-#include "core/path/visible_classes.h"
 #include "core/plugin/registry.h"
 
 namespace pssmlt::stress {
@@ -37,43 +36,6 @@ bool is_chain(const std::string& sampler) {
 bool contains(const std::vector<std::string>& lines, const std::string& text) {
   return std::ranges::any_of(
       lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
-}
-
-// Why a pair finds nothing, or not all, of the light that a point's oracle counts; "" if it does.
-std::string blindness(const BuiltScene& built, const std::string& classes, int max_depth,
-                      bool all) {
-  const Layer& layer = built.layers.front();
-  const std::string sees = layer.integrator->sees();
-  const SceneFeatures& features = built.scene->features();
-  if (all) {
-    const auto unseen = unseen_class(sees, classes, features, max_depth);
-    if (!unseen) return "";
-    return fmt::format("{} sees {}: no {}", layer.integrator_name, sees, *unseen);
-  }
-  constexpr int enough = 64;  // longer paths are made of the same letters
-  if (!PathExpression::disjoint(PathExpression(sees), PathExpression(classes), features, 0,
-                                std::min(max_depth, enough))) {
-    return "";
-  }
-  return fmt::format("{} sees {}: none of the light of {}", layer.integrator_name, sees, classes);
-}
-
-// Why an integrator that sees the light in principle does not find it here; "" if it does. What it
-// does is told from what it sees: a medium that emits is found by rays from the camera alone,
-// behind a rough surface by directions that it sampled alone.
-std::string practical_blindness(const Point& point, const Layer& layer) {
-  const PathExpression sees(layer.integrator->sees());
-  if (point.aimed && !sees.matches("VE")) {
-    return layer.integrator_name +
-           " follows no rays from the camera, and the picture is too small "
-           "a part of the scene to be hit from the lights";
-  }
-  if (point.narrow && !sees.matches("VDE")) {
-    return layer.integrator_name +
-           " does not meet lights along sampled lobes, and these are too "
-           "narrow to be found by points drawn on light or lens";
-  }
-  return "";
 }
 
 }  // namespace

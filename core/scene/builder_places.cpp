@@ -64,9 +64,9 @@ void SceneBuilder::tell_touching_interfaces() {
   const size_t points = std::min(points_a_shape, most_points / found.size() + 1);
   for (const Primitive* const p : found) {
     for (size_t i = 0; i < points; ++i) {
-      // The R2 sequence: additive recurrence by the plastic number.
-      const vec2 u(glm::fract(.5 + .7548776662466927 * static_cast<double>(i)),
-                   glm::fract(.5 + .5698402909980532 * static_cast<double>(i)));
+      // The R2 sequence, additive recurrence by the plastic number, from no special point.
+      const vec2 u(glm::fract(.2718281828 + .7548776662466927 * static_cast<double>(i)),
+                   glm::fract(.1414213562 + .5698402909980532 * static_cast<double>(i)));
       const Primitive* const other = too_close(*scene_->accel_, *p, p->shape->sample_area(u));
       if (other == nullptr) continue;
       built_.log.push_back("warning: " + p->name + " and " + other->name +

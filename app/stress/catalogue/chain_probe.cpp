@@ -1,4 +1,8 @@
 // Chains on targets in closed form, over many seeds, block by block.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -15,6 +19,7 @@ namespace {
 constexpr int width = 8, height = 4, blocks = 4;  // blocks: columns of two pixels
 // What the text of the catalogue asks of chi-squares; seeds are fixed, so a run repeats itself.
 constexpr double least_p = 1e-4;
+constexpr double rounding = 1e-6;  // relative; of targets, which are floats
 
 float radiance(const ChainTarget& t, double x, float a, float b) {
   const auto ramp = static_cast<float>(1.0 + x / width);
@@ -84,22 +89,40 @@ ParameterSet parameters(const ChainTarget& t, const std::string& sampler) {
 
 using Means = std::vector<std::array<double, blocks>>;
 
-// Solves a x = b for a small symmetric positive matrix; returns b' a^-1 b, or -1 if it is singular.
-double inverse_form(std::array<std::array<double, blocks>, blocks> a,
-                    const std::array<double, blocks>& b) {
-  std::array<double, blocks> y{};  // of the Cholesky factor
-  double form = 0.0;
+// b' a^-1 b for a covariance a, in the directions in which it is not singular, and their number. In
+// the others (the whole, where a target is the same everywhere) b must vanish; else inconsistent.
+struct Form {
+  double value = 0.0;
+  int rank = 0;
+  bool consistent = true;
+};
+Form inverse_form(std::array<std::array<double, blocks>, blocks> a,
+                  const std::array<double, blocks>& b) {
+  constexpr double singular = 1e-7, vanishing = 1e-5;
+  std::array<double, blocks> y{};  // by the Cholesky factor, row by row
+  Form form;
   for (size_t i = 0; i < blocks; ++i) {
+    const double whole = a[i][i];
+    double rest = b[i];
+    bool used = true;
     for (size_t j = 0; j <= i; ++j) {
       double sum = a[i][j];
       for (size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      if (i == j && !(sum > 1e-12 * a[i][i])) return -1.0;
-      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
+      if (i != j) {
+        a[i][j] = a[j][j] > 0.0 ? sum / a[j][j] : 0.0;
+        rest -= a[i][j] * y[j];
+        continue;
+      }
+      used = sum > singular * whole && sum > 0.0;
+      a[i][i] = used ? std::sqrt(sum) : 0.0;
     }
-    double sum = b[i];
-    for (size_t k = 0; k < i; ++k) sum -= a[i][k] * y[k];
-    y[i] = sum / a[i][i];
-    form += y[i] * y[i];
+    if (!used) {
+      form.consistent = form.consistent && std::abs(rest) < vanishing;
+      continue;
+    }
+    y[i] = rest / a[i][i];
+    form.value += y[i] * y[i];
+    ++form.rank;
   }
   return form;
 }
@@ -134,9 +157,11 @@ double p_value(const Statistics& s, const std::array<double, blocks>& expected, 
     apart[b] = s.mean[b] - expected[b];
     largest = std::max(largest, std::abs(apart[b]) / expected[b]);
   }
-  const double form = inverse_form(s.covariance, apart);
-  if (form < 0.0) return largest < 1e-5 ? 1.0 : 0.0;  // the same in all renders
-  const double p = blocks, f = n * form * (n - p) / (p * (n - 1.0));
+  if (largest < rounding) return 1.0;
+  const Form form = inverse_form(s.covariance, apart);
+  if (!form.consistent) return 0.0;
+  if (form.rank == 0) return 1.0;  // the same in all renders, and right
+  const double p = form.rank, f = n * form.value * (n - p) / (p * (n - 1.0));
   return boost::math::cdf(
       boost::math::complement(boost::math::fisher_f_distribution<double>(p, n - p), f));
 }
@@ -151,9 +176,9 @@ std::array<double, blocks> block_means(ToyRender& render) {
   return means;
 }
 
-// Block means of all seeds; what the last one reports, and the longest stuck run of all, go to `o`.
-Means render_seeds(const std::string& sampler, const ChainTarget& t, Outcome& o) {
-  const RasterMap map = box_map(width, height);
+// One render of the target: its block means and what the sampler reports.
+std::array<double, blocks> render_seed(const std::string& sampler, const ChainTarget& t,
+                                       const RasterMap& map, int seed, nlohmann::json& report) {
   const auto function = [&t](PrimarySample& u, Splats& out) {
     const double x = u.raster().x;
     auto numbers = u.numbers(Stream::camera, 1);
@@ -162,23 +187,36 @@ Means render_seeds(const std::string& sampler, const ChainTarget& t, Outcome& o)
     const float value = radiance(t, x, a, b);
     if (value > 0.f) out.camera(Rgb(value), {});
   };
-  Means means;
-  for (int seed = 1; seed <= t.seeds; ++seed) {
-    ToyRender render(sampler, parameters(t, sampler), function, map, static_cast<uint64_t>(seed));
-    // Without a bootstrap its samples are made here.
-    const double least = render.sampler().is_chain() ? 0.0 : t.bootstrap;
-    for (double made = 0.0; made < std::max(t.mutations * width * height, least);) {
-      made += render.sampler().samples(render.rounds());
-      render.rounds(1);
-    }
-    means.push_back(block_means(render));
-    nlohmann::json report = nlohmann::json::object();
-    render.sampler().report(report);
+  ToyRender render(sampler, parameters(t, sampler), function, map, static_cast<uint64_t>(seed));
+  // Without a bootstrap its samples are made here.
+  const double least = render.sampler().is_chain() ? 0.0 : t.bootstrap;
+  for (double made = 0.0; made < std::max(t.mutations * width * height, least);) {
+    made += render.sampler().samples(render.rounds());
+    render.rounds(1);
+  }
+  report = nlohmann::json::object();
+  render.sampler().report(report);
+  return block_means(render);
+}
+
+// Block means of all seeds, which share the threads; what the last one reports, and the longest
+// stuck run of all, go to `o`.
+Means render_seeds(const ProbeContext& context, const ChainTarget& t, Outcome& o) {
+  const RasterMap map = box_map(width, height);
+  const auto count = static_cast<size_t>(t.seeds);
+  Means means(count);
+  std::vector<nlohmann::json> reports(count);
+  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+      means[i] = render_seed(context.pair.sampler, t, map, static_cast<int>(i) + 1, reports[i]);
+    });
+  });
+  for (const nlohmann::json& report : reports) {
     if (report.contains("acceptance_rate")) o.acceptance = report["acceptance_rate"].get<double>();
-    if (report.contains("longest_stuck")) {
-      o.longest_stuck =
-          std::max(o.longest_stuck.value_or(0), report["longest_stuck"].get<uint64_t>());
-    }
+    if (!report.contains("longest_stuck")) continue;
+    o.longest_stuck =
+        std::max(o.longest_stuck.value_or(0), report["longest_stuck"].get<uint64_t>());
   }
   return means;
 }
@@ -188,7 +226,7 @@ Means render_seeds(const std::string& sampler, const ChainTarget& t, Outcome& o)
 Outcome chains_on_target(const ProbeContext& context, const ChainTarget& t) {
   const LogCapture capture;
   Outcome o;
-  const Statistics s = statistics(render_seeds(context.pair.sampler, t, o));
+  const Statistics s = statistics(render_seeds(context, t, o));
   const std::array<double, blocks> expected = truth(t);
   const auto n = static_cast<double>(t.seeds);
   const double p = p_value(s, expected, n);
@@ -228,7 +266,7 @@ Outcome bias_of_refined_b(const ProbeContext& context) {
                         .bootstrap = count,
                         .mutations = 16,
                         .keep_b = false};
-    const Statistics s = statistics(render_seeds(context.pair.sampler, t, o));
+    const Statistics s = statistics(render_seeds(context, t, o));
     const std::array<double, blocks> expected = truth(t);
     double worst = 0.0, tolerance = 0.0;
     for (size_t b = 0; b < blocks; ++b) {

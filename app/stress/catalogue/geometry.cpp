@@ -37,7 +37,7 @@ Case enclosure(const std::string& name, const std::string& about, const Values& 
   c.polite = [] { return inside(ball); };
   for (const auto& [value, text] : walls) {
     c.points.push_back(
-        {value, [text] { return inside(text); }, Means{{enclosure_radiance()}, rounding}});
+        {value, [text = text] { return inside(text); }, Means{{enclosure_radiance()}, rounding}});
   }
   return c;
 }
@@ -122,7 +122,7 @@ Case furnace(const std::string& name, const std::string& about, const Values& sh
   };
   for (const auto& [value, text] : shapes) {
     c.points.push_back({value,
-                        [view, text] {
+                        [view, text = text] {
                           return view() +
                                  "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\nMaterial "
                                  "\"diffuse\" \"rgb reflectance\" [ 1 1 1 ]\n" +

@@ -12,7 +12,7 @@ Case targets(const std::string& name, const std::string& about,
              const std::vector<std::pair<std::string, ChainTarget>>& values) {
   Case c{.group = 10, .name = name, .about = about, .over = Over::samplers};
   for (const auto& [value, target] : values) {
-    c.points.push_back({value, {}, Probe{[target](const ProbeContext& context) {
+    c.points.push_back({value, {}, Probe{[target = target](const ProbeContext& context) {
                           return chains_on_target(context, target);
                         }}});
   }
@@ -35,7 +35,7 @@ void add_shapes(Cases& cases) {
     islands.emplace_back(fmt::format("{}", size),
                          ChainTarget{.kind = ChainTarget::islands,
                                      .size = static_cast<float>(size),
-                                     .seeds = size < 2e-3 ? 40 : 100,
+                                     .seeds = size < 2e-3 ? 12 : 100,
                                      .bootstrap = bootstrap_for(size * size)});
   }
   for (const double size : {1e-6, 1e-4, 1e-2, 1e-1}) {
@@ -70,7 +70,7 @@ void add_settings(Cases& cases) {
                           if (count > 10000) t.seeds = 20;
                         }));
   }
-  for (const double count : {1e6, 1.0, 100.0}) {
+  for (const double count : {1.0, 1e6, 100.0}) {
     mutations.emplace_back(fmt::format("{}", count), smooth([=](ChainTarget& t) {
                              t.mutations = count;
                              if (count > 1e5) t.seeds = 8;

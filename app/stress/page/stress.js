@@ -31,7 +31,8 @@ function banners() {
 }
 
 function overview() {
-  const columns = ['pass', 'fail', 'cannot see', 'undecided or not run'].map((title) => ({title}));
+  const titles = ['case', 'pass', 'fail', 'cannot see', 'undecided or not run'];
+  const columns = titles.map((title) => ({title}));
   const rows = data.cases.map((c) => {
     const n = counts(runsOf(c));
     return {
@@ -56,7 +57,7 @@ function runRow(point, run) {
       cell(run.verdict, {class: kind}), cell(number(run.deviation)), cell(number(run.tolerance)),
       cell(String(run.dropped)), cell(number(run.relative_speed)), cell(number(run.acceptance)),
       cell(run.longest_stuck === null ? '' : String(run.longest_stuck)),
-      cell([run.reason, run.meaning].filter(Boolean).join('\n'), {class: 'reason'}));
+      cell([...new Set([run.reason, run.meaning])].filter(Boolean).join('\n'), {class: 'reason'}));
 }
 
 function caseDetails(c) {

@@ -9,6 +9,7 @@
 #include "app/stress/stress_options.h"
 #include "app/stress/table.h"
 #include "app/stress/technique.h"
+#include "tests/support/reduced.h"
 
 namespace pssmlt::stress {
 namespace {
@@ -74,9 +75,18 @@ TEST(StressCatalogue, HasDistinctCasesOfAllGroups) {
   for (int g = 1; g <= 11; ++g) EXPECT_TRUE(groups.contains(g)) << g;
 }
 
-// False alarm: 10^-6, of the runner's own statistics.
+// False alarm: 10^-6, of the runner's own statistics. Builds with sanitizers are too slow to decide
+// by statistics: what they run must not fail.
 TEST(StressRun, ExtremesPass) {
   add_faulty_plugins();
+  if (test::reduced()) {
+    const Cases few = extremes({"scale-bits", "radiance-bits", "slab-index", "slivers",
+                                "stacked-glass", "refused-geometry", "fov", "faulty-material"});
+    for (const Entry& e : run(few, {"path"}, {"sobol", "pssmlt"})) {
+      EXPECT_NE(e.outcome.verdict, Verdict::fail) << told(few, e);
+    }
+    return;
+  }
   const Cases cases =
       extremes({"scale-bits", "coordinates", "radiance-bits", "light-radius", "metal-furnace-0",
                 "density-integral", "slab-index", "stacked-glass", "white-sphere-1", "extinction",
@@ -96,7 +106,8 @@ TEST(StressRun, SaysWhoCannotSee) {
   EXPECT_NE(entries[0].outcome.reason.find("whitted sees"), std::string::npos);
 }
 
-// A picture that is 2 % too bright, one that is too dark at one side, one that should be refused.
+// A picture that is 20 % too bright, one that is too dark at one side, one that is not twice as
+// bright as it should be, one that should be refused, one that should be warned of.
 TEST(StressRun, WrongPicturesFail) {
   Cases cases = extremes({"white-sphere-1", "light-radius", "scale-bits"});
   std::get<Means>(cases[2].points[0].oracle).values[0] *= 1.2;

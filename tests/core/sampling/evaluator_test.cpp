@@ -52,6 +52,22 @@ test::ToyIntegrator::Function camera_value(const Rgb& value) {
   };
 }
 
+// Bright scenes are not made of samples that are too large, nor dark ones without such.
+TEST(Evaluator, LargeIsRelativeToTheScene) {
+  const auto takes = [](float value, double scale) {
+    test::ToyIntegrator integrator(camera_value(Rgb(value)));
+    Bench bench([](PrimarySample&, Splats&) {});
+    RejectionLog log;
+    Evaluator evaluator(integrator, log, scale);
+    return evaluator.evaluate(bench.owner.sample(), bench.splats, bench.workspace);
+  };
+  EXPECT_TRUE(takes(0x1p100f, 0x1p100));
+  EXPECT_TRUE(takes(0x1p40f, 1.0));
+  EXPECT_FALSE(takes(0x1p41f, 1.0));
+  EXPECT_FALSE(takes(1.f, 0x1p-60));
+  EXPECT_FALSE(takes(infinity, 0x1p120));
+}
+
 TEST(Evaluator, DropsAndCountsBadSamples) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   expect_rejected(Rejection::nan, camera_value({1.f, nan, 0.f}));
