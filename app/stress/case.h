@@ -102,6 +102,7 @@ struct Case {
   int max_depth = 5;             // bounces
   double demand = 0.1;           // relative; a tolerance above it decides nothing
   Over over = Over::pairs;
+  int bootstrap = 8192;    // samples of chains, where a sampler has such a parameter
   int least_samples = 32;  // a pixel, of comparisons by statistics
   int samples = 16;        // samples a pixel of comparisons bit by bit
 };

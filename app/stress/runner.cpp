@@ -159,7 +159,7 @@ Job Runner::job(const Case& c, const Point& point, const Pair& pair,
                 const std::string& scene) const {
   Job job{.scene = scene,
           .pair = pair,
-          .set = small_settings(pair),
+          .set = small_settings(pair, c.bootstrap),
           .seed = options_.seed,
           .threads = options_.threads};
   const std::string& classes = point.classes.empty() ? c.classes : point.classes;

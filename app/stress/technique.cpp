@@ -14,11 +14,12 @@ bool has_parameter(const std::string& kind, const std::string& plugin, const std
                              [&](const ParameterDoc& doc) { return doc.name == name; });
 }
 
-std::vector<std::string> small_settings(const Pair& pair) {
+std::vector<std::string> small_settings(const Pair& pair, int bootstrap) {
   std::vector<std::string> set;
   if (pair.sampler.empty()) return set;
   for (const auto& [name, value] :
-       {std::pair("bootstrapsamples", "8192"), std::pair("chains", "64")}) {
+       {std::pair("bootstrapsamples", std::to_string(bootstrap)),
+        std::pair("chains", std::string(bootstrap < 1024 ? "32" : "64"))}) {
     if (has_parameter("sampler", pair.sampler, name)) {
       set.push_back("sampler." + std::string(name) + "=" + value);
     }
