@@ -62,7 +62,7 @@ Outcome no_large_steps(const ProbeContext& context) {
   picture.add(64);
   const nlohmann::json layer = picture.layer();
   const bool warned = std::ranges::any_of(picture.log(), [](const std::string& line) {
-    return line.starts_with("warning") && line.find("large steps") != std::string::npos;
+    return line.starts_with("warning") && line.find("largestepprobability") != std::string::npos;
   });
   const bool told = layer.contains("efficiency");
   outcome.verdict = warned && told ? Verdict::pass : Verdict::fail;
