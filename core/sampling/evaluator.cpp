@@ -9,13 +9,20 @@ namespace pssmlt {
 namespace {
 
 constexpr size_t example_count = 16;
-constexpr double largest_relative_value = 0x1p40;
+
+// 2^40, or 2^40 scales where that is more; but never so much that the film's sums could overflow.
+// The scale is that of the whole scene: what a picture shows of a huge one may be far brighter.
+float largest_value(double radiance_scale) {
+  const double largest = std::min(0x1p60 * radiance_scale, 0x1p40 * std::max(radiance_scale, 1.0));
+  return static_cast<float>(
+      std::min(largest, static_cast<double>(std::numeric_limits<float>::max())));
+}
 
 // What is wrong with one colour; false if nothing is.
-bool find_fault(const Rgb& value, float largest_value, Rejection& cause) {
+bool find_fault(const Rgb& value, float largest, Rejection& cause) {
   for (int c = 0; c < 3; ++c) {
     const float v = value[c];
-    if (v >= 0.f && v <= largest_value) continue;
+    if (v >= 0.f && v <= largest) continue;
     cause = std::isnan(v)   ? Rejection::nan
             : std::isinf(v) ? Rejection::infinite
             : v < 0.f       ? Rejection::negative
@@ -68,11 +75,7 @@ std::vector<ReplayKey> RejectionLog::examples() const {
 }
 
 Evaluator::Evaluator(const Integrator& integrator, RejectionLog& log, double radiance_scale)
-    : integrator_(integrator),
-      log_(log),
-      largest_value_(
-          static_cast<float>(std::min(largest_relative_value * radiance_scale,
-                                      static_cast<double>(std::numeric_limits<float>::max())))) {}
+    : integrator_(integrator), log_(log), largest_value_(largest_value(radiance_scale)) {}
 
 void Evaluator::name_sample(const char* sampler, uint64_t seed, int64_t pixel, int64_t index) {
   sampler_ = sampler;

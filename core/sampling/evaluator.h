@@ -47,7 +47,8 @@ class Evaluator {
   // radiance_scale: see BuiltScene; what is too large is measured by it.
   Evaluator(const Integrator& integrator, RejectionLog& log, double radiance_scale = 1.0);
   // f(u) into `out` (cleared first). False if the sample was dropped: `out` is then empty and the
-  // cause counted with what describes u. Values above 2^40 radiance scales are too large.
+  // cause counted with what describes u. Values above 2^40 are too large, or above 2^40 radiance
+  // scales if that is more; those above 2^60 scales always.
   bool evaluate(PrimarySample& u, Splats& out, Workspace& workspace);
   // How a memoryless sampler names the sample about to be evaluated (cheap: stored, not formatted,
   // until needed). Chains leave it unset: u itself is printed.

@@ -64,7 +64,8 @@ Case white_cloud(const std::string& name, const std::string& about, double deman
          .about = about,
          .classes = "ID*E",
          .max_depth = 1000000,
-         .demand = demand};
+         .demand = demand,
+         .bootstrap = 1024};
   c.polite = [] { return white_ball(homogeneous(0.0, 1.0)); };
   for (const auto& [value, medium] : media) {
     c.points.push_back(
@@ -104,7 +105,8 @@ Case half_space() {
          .name = "half-space",
          .about = "albedo of a half space in a white sky: Chandrasekhar's H function",
          .classes = "ID+E",
-         .max_depth = 1000000};
+         .max_depth = 1000000,
+         .bootstrap = 1024};
   for (const double lost : {1e-5, 1e-3, 1e-2, .1, .5}) {
     const double far = 12.0 * std::max(1.3, 1.0 / std::sqrt(3.0 * lost));
     const auto scene = [lost, far] {

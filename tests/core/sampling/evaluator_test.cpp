@@ -64,7 +64,8 @@ TEST(Evaluator, LargeIsRelativeToTheScene) {
   EXPECT_TRUE(takes(0x1p100f, 0x1p100));
   EXPECT_TRUE(takes(0x1p40f, 1.0));
   EXPECT_FALSE(takes(0x1p41f, 1.0));
-  EXPECT_FALSE(takes(1.f, 0x1p-60));
+  EXPECT_TRUE(takes(1.f, 0x1p-47));  // a lamp over a plain of 10^7 m
+  EXPECT_FALSE(takes(1.f, 0x1p-62));
   EXPECT_FALSE(takes(infinity, 0x1p120));
 }
 
