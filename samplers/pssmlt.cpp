@@ -13,6 +13,7 @@
 #include "core/base/log.h"
 #include "core/metropolis/advance.h"
 #include "core/metropolis/candidate_source.h"
+#include "core/metropolis/chain_host.h"
 #include "core/metropolis/resampling.h"
 #include "core/metropolis/walk_parameters.h"
 #include "core/plugin/plugin.h"
@@ -67,54 +68,6 @@ Settings read_settings(Parameters& p) {
   }
   return s;
 }
-
-// A chain between two rounds: its state alone.
-struct Chain {
-  StoredNumbers numbers;
-  std::vector<Splat> splats;
-  double value = 0.0;
-  PixelCredit credit;
-  uint64_t stuck = 0;
-};
-
-// What advance() asks of its host: evaluates the integrator, sends credits to the film.
-class ChainHost {
- public:
-  ChainHost(SplatSink& sink, Worker& worker, Splats& current, int group)
-      : sink_(sink), worker_(worker), current_(current), group_(group) {}
-  void restore(const Chain& chain) {
-    current_.assign(chain.splats.data(), chain.splats.size());
-    current_credit_ = chain.credit;
-  }
-  void store(Chain& chain) const {
-    chain.splats = current_.all();
-    chain.credit = current_credit_;
-  }
-
-  double evaluate(PrimarySample& u) {
-    const bool good = worker_.evaluator.evaluate(u, worker_.splats, worker_.workspace);
-    proposed_credit_ = worker_.sample.credit();
-    return good ? luminance(worker_.splats) : 0.0;
-  }
-  void credit_current(double weight) { sink_.add(0, current_, current_credit_, weight, group_); }
-  void credit_proposed(double weight) {
-    sink_.add(0, worker_.splats, proposed_credit_, weight, group_);
-  }
-  void credit_large(double weight) {
-    sink_.add(1, worker_.splats, proposed_credit_, weight, group_);
-  }
-  void accept() {
-    std::swap(current_, worker_.splats);
-    current_credit_ = proposed_credit_;
-  }
-
- private:
-  SplatSink& sink_;
-  Worker& worker_;
-  Splats& current_;
-  PixelCredit current_credit_, proposed_credit_;
-  int group_;
-};
 
 class Pssmlt final : public Sampler {
  public:
