@@ -53,7 +53,7 @@ Outcome no_large_steps(const ProbeContext& context) {
     outcome.reason = context.pair.sampler + " has no large steps";
     return outcome;
   }
-  Job job{.scene = lab({}),
+  Job job{.scene = lab({.height = 32}),  // four blocks, the fewest that regions are told of
           .pair = {default_plugins().integrator, context.pair.sampler},
           .threads = context.threads};
   job.set = small_settings(job.pair);

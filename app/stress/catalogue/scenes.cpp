@@ -73,7 +73,7 @@ std::string balls(const Lab& l, const Places& p) {
 
 std::string lab(const Lab& l) {
   const Places p(l);
-  std::string text = film(32, 16) + "LookAt " + p.eye(0, 1.1, -3.4) + p.eye(0, .9, 0) +
+  std::string text = film(32, l.height) + "LookAt " + p.eye(0, 1.1, -3.4) + p.eye(0, .9, 0) +
                      "0 1 0\nCamera \"perspective\" \"float fov\" 36 \"float lensradius\" " +
                      fmt::format("{} \"float focaldistance\" {}", .05 * l.length, 3.4 * l.length) +
                      "\nWorldBegin\n";

@@ -21,6 +21,7 @@ struct Lab {
   double length = 1.0, radiance = 1.0;
   double x = 0.0, y = 0.0, z = 0.0;  // where it lies, by coordinates
   bool by_transform = false;         // where it lies, by Translate
+  int height = 16;                   // of the picture [pixels]
 };
 std::string lab(const Lab& l);
 
