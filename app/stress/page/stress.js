@@ -1,10 +1,14 @@
-// The page of `pssmlt stress`: totals, a table of cases by verdict, every run of every case. Uses the
-// comparison report's core.js and table.js. Texts of the data become text nodes, never HTML.
+// The page of `pssmlt stress`: totals, a table of cases by verdict, every run of every case. Uses
+// the comparison report's core.js and table.js. Texts of the data become text nodes, never HTML.
 'use strict';
 (function(R) {
 const data = JSON.parse(R.byId('data').textContent);
 R.unknown = 'unknown';
-const kinds = {'pass': 'pass', 'FAIL': 'fail', 'cannot see': 'blind'};
+const kinds = {
+  'pass': 'pass',
+  'FAIL': 'fail',
+  'cannot see': 'blind'
+};
 const kindOf = (run) => kinds[run.verdict] ?? 'open';
 const number = (v) => v === null || v === undefined ? '' : Number(v).toPrecision(2);
 
@@ -67,8 +71,10 @@ function caseDetails(c) {
       'details', {class: n.fail > 0 ? 'case fail' : 'case', id: `case-${c.name}`},
       R.make(
           'summary', {}, R.make('b', {}, `${c.group}. ${c.name}`), c.about,
-          R.make('span', {class: 'faint'}, `${n.pass} pass, ${n.fail} fail, ${n.blind} cannot see, ` +
-              `${n.open} open`)),
+          R.make(
+              'span', {class: 'faint'},
+              `${n.pass} pass, ${n.fail} fail, ${n.blind} cannot see, ` +
+                  `${n.open} open`)),
       body);
   // Made when it is opened: the full grid has thousands of rows.
   element.addEventListener('toggle', () => {
@@ -97,9 +103,11 @@ function theme() {
 }
 
 const t = data.totals;
-R.byId('subtitle').textContent = `${data.cases.length} cases, ${Math.round(data.seconds)} s, ${data.time}`;
+R.byId('subtitle').textContent =
+    `${data.cases.length} cases, ${Math.round(data.seconds)} s, ${data.time}`;
 R.byId('headline').textContent = `${t.pass} pass, ${t.fail} fail, ${t.cannot_see} cannot see the ` +
-    `light, ${t.undecided} undecided, ${t.not_run} not run. A run of the whole grid fails by chance ` +
+    `light, ${t.undecided} undecided, ${
+                                     t.not_run} not run. A run of the whole grid fails by chance ` +
     `with a probability below ${data.false_alarm}.`;
 banners();
 overview();
