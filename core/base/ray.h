@@ -7,15 +7,8 @@
 
 namespace pssmlt {
 
-// The neighbouring floats of a finite number; std::nextafter is a library call, this is inline.
-inline float next_up(float x) {
-  if (x == 0.f) return std::numeric_limits<float>::denorm_min();
-  const auto bits = std::bit_cast<uint32_t>(x);
-  return std::bit_cast<float>(x > 0.f ? bits + 1u : bits - 1u);
-}
-inline float next_down(float x) { return -next_up(-x); }
-// One of the two by the sign of `toward`, x itself where that is 0. Without branches, which no
-// processor could foresee.
+// The neighbouring float of a finite number on the side of the sign of `toward`, x itself where
+// that is 0. Without branches, which no processor could foresee; std::nextafter is a library call.
 inline float next_toward(float x, float toward) {
   const auto bits = std::bit_cast<uint32_t>(x),
              sign = std::bit_cast<uint32_t>(toward) & 0x80000000u;

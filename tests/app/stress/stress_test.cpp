@@ -25,7 +25,7 @@ Cases extremes(const std::vector<std::string>& names) {
 }
 
 std::vector<Entry> run(const Cases& cases, std::vector<std::string> integrators,
-                       std::vector<std::string> samplers, double seconds = 60.0) {
+                       std::vector<std::string> samplers, double seconds = 1200.0) {
   RunnerOptions options;
   options.integrators = std::move(integrators);
   options.samplers = std::move(samplers);
