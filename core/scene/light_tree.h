@@ -4,12 +4,16 @@
 // Tree Splitting (cones of normals, orientation in the cost of a split); Pharr, Jakob, Humphreys
 // 2023, Physically Based Rendering, section 12.6.3 (one number down the tree). Every node has a
 // box, a cone of normals and an intensity; a child is chosen in proportion to a guess of the
-// irradiance that its lights make at the point, nothing being in the way.
+// irradiance that its lights make at the point, nothing being in the way. Nodes have up to four
+// children, guessed at by the same instructions (I. Wald, C. Benthin, S. Boulos 2008, Getting Rid
+// of Packets: four-wide trees).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/base/four.h"
 #include "core/light.h"
 
 namespace pssmlt {
@@ -39,31 +43,38 @@ class LightTree {
   // Guess of the irradiance from all lights [W/m^2].
   double irradiance(const LightReceiver& at) const;
 
-  bool empty() const { return nodes_.empty(); }
+  bool empty() const { return fans_.empty(); }
   size_t bytes() const {
-    return nodes_.capacity() * sizeof(Node) + trails_.capacity() * sizeof(uint64_t);
+    return fans_.capacity() * sizeof(Fan) + trails_.capacity() * sizeof(uint64_t);
   }
 
  private:
-  struct alignas(64) Node {
-    vec3 center{0.f};      // of the bounding sphere [m]
-    float radius2 = 0.f;   // its squared radius [m^2]
-    vec3 axis{0.f};        // of the cone of normals
-    float cos_cone = 1.f;  // of its half angle
-    float cos_spread = 0.f;
-    float intensity = 0.f;  // as a part of that of all lights [1]
-    uint32_t next = 0;      // inner node: the first of two children; leaf: the light
-    bool leaf = false;
-    bool two_sided = false;
+  static constexpr uint32_t width = 4;
+  // Siblings. What is not there has no intensity.
+  struct alignas(64) Fan {
+    std::array<Four, 3> center{};  // of the bounding spheres, by axis [m]
+    Four radius2{};                // their squared radii [m^2]
+    std::array<Four, 3> axis{};    // of the cones of normals
+    Four cos_cone{}, sin_cone{};   // of their half angles
+    Four cos_spread{};
+    Four intensity{};                    // as a part of that of all lights [1]
+    Four two_sided{};                    // 0 or 1
+    std::array<uint32_t, width> next{};  // inner node: the fan of its children; leaf: the light
+    std::array<bool, width> leaf{};
+    uint32_t count = 0;
   };
   friend class LightTreeBuilder;
-  // Irradiance for unit intensity of all lights together [1/m^2].
-  static float importance(const Node& node, const LightReceiver& at);
-  // Probability of the first of two children.
-  double first_share(uint32_t first, const LightReceiver& at) const;
+  // Irradiance of each sibling for unit intensity of all lights together [1/m^2].
+  static Four importances(const Fan& fan, const LightReceiver& at);
+  // What siblings are chosen in proportion to; the sum is positive and finite.
+  struct Weights {
+    std::array<double, width> of{};
+    double sum = 0.0;
+  };
+  static Weights weights(const Fan& fan, const LightReceiver& at);
 
-  std::vector<Node> nodes_;  // the root first, siblings side by side
-  // For each light which way to go from the root, lowest bit first.
+  std::vector<Fan> fans_;  // the root's children first
+  // For each light which way to go from the root, two bits a fan, lowest first.
   std::vector<uint64_t> trails_;
   double intensity_ = 0.0;  // of all lights [W/sr]
 };

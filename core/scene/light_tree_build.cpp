@@ -1,5 +1,5 @@
-// How the hierarchy of lights is built: top down, each split the cheapest of those between bins
-// along the three axes.
+// How the hierarchy of lights is built: top down by halves, each split the cheapest of those
+// between bins along the three axes; then of two generations one is made.
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -65,9 +65,12 @@ class LightTreeBuilder {
       tree_.intensity_ += static_cast<double>(b.intensity);
     }
     tree_.trails_.resize(lights.size());
-    tree_.nodes_.reserve(2 * lights.size() - 1);
-    tree_.nodes_.emplace_back();
-    build(0, 0, lights.size(), 0, 0);
+    nodes_.reserve(2 * lights.size() - 1);
+    nodes_.emplace_back();
+    build(0, 0, lights.size(), 0);
+    tree_.fans_.emplace_back();
+    gather(0, 0, 0, 0);
+    tree_.fans_.shrink_to_fit();
   }
 
  private:
@@ -76,8 +79,16 @@ class LightTreeBuilder {
     int axis = 0;
     size_t bin = 0;  // the last one of the first child
   };
-  void build(uint32_t node, size_t begin, size_t end, int depth, uint64_t trail);
-  void fill(uint32_t node, const LightBounds& b);
+  struct Node {
+    LightBounds bounds;
+    uint32_t first = 0;  // of two children; leaf: the light
+    bool leaf = false;
+  };
+  void build(uint32_t node, size_t begin, size_t end, int depth);
+  // Makes a fan of a node's children and grandchildren, then of theirs.
+  void gather(uint32_t node, uint32_t fan, int depth, uint64_t trail);
+  std::vector<uint32_t> descendants(uint32_t node) const;
+  void fill(LightTree::Fan& fan, uint32_t lane, const LightBounds& b) const;
   // Where the second child's lights begin; both have some.
   size_t divide(size_t begin, size_t end, int depth);
   Split best_split(const Bounds& centers, size_t begin, size_t end) const;
@@ -92,38 +103,69 @@ class LightTreeBuilder {
   LightTree& tree_;
   std::vector<uint32_t> order_;
   std::vector<vec3> centers_;
+  std::vector<Node> nodes_;  // halves, the root first, siblings side by side
 };
 
 LightTree::LightTree(const std::vector<LightBounds>& lights) { LightTreeBuilder(lights, *this); }
 
-void LightTreeBuilder::fill(uint32_t node, const LightBounds& b) {
-  LightTree::Node& n = tree_.nodes_[node];
-  n.center = 0.5f * b.box.min + 0.5f * b.box.max;
-  n.radius2 = static_cast<float>(0.25 * squared_diagonal(b.box));
-  n.axis = b.normals.axis;
-  n.cos_cone = b.normals.cosine;
-  n.cos_spread = b.cos_spread;
-  n.two_sided = b.two_sided;
+void LightTreeBuilder::fill(LightTree::Fan& fan, uint32_t lane, const LightBounds& b) const {
+  const vec3 center = 0.5f * b.box.min + 0.5f * b.box.max;
+  for (int k = 0; k < 3; ++k) {
+    fan.center[static_cast<size_t>(k)][lane] = center[k];
+    fan.axis[static_cast<size_t>(k)][lane] = b.normals.axis[k];
+  }
+  fan.radius2[lane] = static_cast<float>(0.25 * squared_diagonal(b.box));
+  fan.cos_cone[lane] = b.normals.cosine;
+  fan.sin_cone[lane] = safe_sqrt(1.f - sqr(b.normals.cosine));
+  fan.cos_spread[lane] = b.cos_spread;
+  fan.two_sided[lane] = b.two_sided ? 1.f : 0.f;
   // Relative: sums stay in range whatever the lights' unit.
-  n.intensity = static_cast<float>(static_cast<double>(b.intensity) / tree_.intensity_);
+  fan.intensity[lane] = static_cast<float>(static_cast<double>(b.intensity) / tree_.intensity_);
 }
 
-void LightTreeBuilder::build(uint32_t node, size_t begin, size_t end, int depth, uint64_t trail) {
+void LightTreeBuilder::build(uint32_t node, size_t begin, size_t end, int depth) {
   LightBounds all = nothing();
   for (size_t i = begin; i < end; ++i) add(all, lights_[order_[i]]);
-  fill(node, all);
-  if (end - begin == 1) {
-    tree_.nodes_[node].leaf = true;
-    tree_.nodes_[node].next = order_[begin];
-    tree_.trails_[order_[begin]] = trail;
+  nodes_[node].bounds = all;
+  nodes_[node].leaf = end - begin == 1;
+  if (nodes_[node].leaf) {
+    nodes_[node].first = order_[begin];
     return;
   }
   const size_t middle = divide(begin, end, depth);
-  const auto first = static_cast<uint32_t>(tree_.nodes_.size());
-  tree_.nodes_[node].next = first;
-  tree_.nodes_.resize(first + 2);
-  build(first, begin, middle, depth + 1, trail);
-  build(first + 1, middle, end, depth + 1, trail | uint64_t{1} << depth);
+  const auto first = static_cast<uint32_t>(nodes_.size());
+  nodes_[node].first = first;
+  nodes_.resize(first + 2);
+  build(first, begin, middle, depth + 1);
+  build(first + 1, middle, end, depth + 1);
+}
+
+// Two generations of one node. A child that is a leaf has none to take its place.
+std::vector<uint32_t> LightTreeBuilder::descendants(uint32_t node) const {
+  std::vector<uint32_t> found;
+  for (uint32_t child = nodes_[node].first; child < nodes_[node].first + 2; ++child) {
+    const Node& n = nodes_[child];
+    found.push_back(n.leaf ? child : n.first);
+    if (!n.leaf) found.push_back(n.first + 1);
+  }
+  return found;
+}
+
+void LightTreeBuilder::gather(uint32_t node, uint32_t fan, int depth, uint64_t trail) {
+  const std::vector<uint32_t> nodes = descendants(node);
+  const auto count = static_cast<uint32_t>(nodes.size());
+  tree_.fans_[fan].count = count;
+  for (uint32_t lane = 0; lane < count; ++lane) {
+    const Node& n = nodes_[nodes[lane]];
+    const uint64_t way = trail | uint64_t{lane} << (2 * depth);
+    const uint32_t next = n.leaf ? n.first : static_cast<uint32_t>(tree_.fans_.size());
+    if (!n.leaf) tree_.fans_.emplace_back();
+    fill(tree_.fans_[fan], lane, n.bounds);
+    tree_.fans_[fan].leaf[lane] = n.leaf;
+    tree_.fans_[fan].next[lane] = next;
+    if (n.leaf) tree_.trails_[n.first] = way;
+    if (!n.leaf) gather(nodes[lane], next, depth + 1, way);
+  }
 }
 
 size_t LightTreeBuilder::divide(size_t begin, size_t end, int depth) {
