@@ -103,6 +103,10 @@ std::string rejected_text(const json& rejected) {
   for (const auto& [cause, count] : rejected["causes"].items()) {
     text += fmt::format(", {} {}", cause, count.get<uint64_t>());
   }
+  for (const json& spoilt : rejected["plugins"]) {
+    text += fmt::format("\n  {} by {}: {}", spoilt["count"].get<uint64_t>(),
+                        spoilt["plugin"].get<std::string>(), spoilt["cause"].get<std::string>());
+  }
   for (const json& example : rejected["examples"]) {
     text += "\n  " + example["cause"].get<std::string>() + ": --replay " +
             example["replay"].get<std::string>();

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "core/base/rgb.h"
+#include "core/plugin/plugin_name.h"
 
 namespace pssmlt {
 
@@ -67,7 +68,7 @@ struct EmissionValue {
   float pdf_direction = 0.f;  // [1/sr]
 };
 
-class Endpoint {
+class Endpoint : public PluginNamed {
  public:
   virtual ~Endpoint() = default;
   virtual EndpointTraits traits() const = 0;

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/plugin/plugin_name.h"
 #include "core/sampling/primary_sample.h"
 #include "core/sampling/splats.h"
 #include "core/sampling/workspace.h"
@@ -13,7 +14,7 @@ namespace pssmlt {
 class Scene;
 class Archive;
 
-class Integrator {
+class Integrator : public PluginNamed {
  public:
   virtual ~Integrator() = default;
   // Once, before rendering.

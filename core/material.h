@@ -5,6 +5,7 @@
 
 #include "core/bsdf.h"
 #include "core/hit.h"
+#include "core/plugin/plugin_name.h"
 #include "core/shading_normals.h"
 #include "core/texture.h"
 
@@ -34,7 +35,7 @@ struct MaterialNumbers {
   int walk = 0;                     // first of walk_vertices vertices of the shared stream
 };
 
-class Material {
+class Material : public PluginNamed {
  public:
   virtual ~Material() = default;
   // Evaluates textures at the hit and draws what is random from `u`; the Bsdf lives in `storage`.

@@ -11,6 +11,7 @@
 
 #include "core/base/ray.h"
 #include "core/bsdf.h"
+#include "core/plugin/plugin_name.h"
 
 namespace pssmlt {
 
@@ -26,7 +27,7 @@ struct MediumTraits {
   bool emits = false;
 };
 
-class Medium {
+class Medium : public PluginNamed {
  public:
   virtual ~Medium() = default;
   virtual MediumTraits traits() const = 0;

@@ -61,6 +61,14 @@ class Shape {
   // Positions are recomputed from the surface's own parameters, not from the ray. Sides (ng, ns)
   // already follow ReverseOrientation and mirroring transforms.
   virtual void fill(const vec2& where, Hit& hit) const = 0;
+  // How far the rounding of `where` may move a point along the surface [m]; 0 if it does not.
+  virtual float grain() const { return 0.f; }
+  // Called after fill() where rays are so short that the grain matters: finds position, distance,
+  // where and uv of hit.element anew from the ray, in double precision. origin and direction: in
+  // the shape's space; distances are in units of direction's length.
+  virtual void refine(const dvec3& origin, const dvec3& direction, Hit& hit) const {
+    (void)origin, (void)direction, (void)hit;
+  }
 
   // Surface area [m^2].
   virtual float area() const = 0;

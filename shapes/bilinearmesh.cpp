@@ -117,6 +117,10 @@ class BilinearMesh final : public Shape {
     return shape_->intersect(ray, t_min);
   }
   void fill(const vec2& where, Hit& hit) const override { shape_->fill(where, hit); }
+  float grain() const override { return shape_->grain(); }
+  void refine(const dvec3& origin, const dvec3& direction, Hit& hit) const override {
+    shape_->refine(origin, direction, hit);
+  }
   float area() const override { return shape_->area(); }
   SurfaceSample sample_area(const vec2& u) const override { return shape_->sample_area(u); }
   std::optional<SurfaceSample> sample_toward(const vec3& reference, const vec2& u) const override {

@@ -64,6 +64,8 @@ class Sphere final : public QuadricShape {
   // nullopt for parts of spheres, distorted ones, and from inside.
   std::optional<Cone> cone(const vec3& reference) const;
   double render_radius() const { return r_ * similarity(); }
+  // Nothing is at a pole that was not cut, where rounding may leave z beyond the radius.
+  bool cut_off(double z) const { return (zmin_ > -r_ && z < zmin_) || (zmax_ < r_ && z > zmax_); }
   bool whole() const { return zmin_ == -r_ && zmax_ == r_ && phimax_ == two_pi; }
 
   double r_ = 1.0, zmin_ = -1.0, zmax_ = 1.0, phimax_ = two_pi;
@@ -97,7 +99,7 @@ std::optional<Sphere::Root> Sphere::intersect_local(const dvec3& o, const dvec3&
         dvec3 p = o + t * d;
         p *= r_ / glm::length(p);
         const double phi = azimuth(p.x, p.y);
-        if (p.z < zmin_ || p.z > zmax_ || phi > phimax_) return std::nullopt;
+        if (cut_off(p.z) || phi > phimax_) return std::nullopt;
         const double theta = std::atan2(std::hypot(p.x, p.y), p.z);
         return Root{t, {phi / phimax_, (theta - theta_zmin_) / (theta_zmax_ - theta_zmin_)}};
       });

@@ -85,6 +85,7 @@ struct Point {
   bool aimed = false;
   // Some samples must be dropped, for one of these causes. Empty: none may be.
   std::vector<std::string> drops = {};
+  std::string culprit = {};  // the plugin that is to be named for them
 };
 
 // What a case is run with: every integrator under every sampler, every sampler (probes that bring

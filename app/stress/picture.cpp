@@ -89,6 +89,10 @@ RenderFigures Picture::figures() const {
     f.causes +=
         (f.causes.empty() ? "" : ", ") + cause + " " + std::to_string(count.get<uint64_t>());
   }
+  for (const auto& spoilt : s["rejected"]["plugins"]) {
+    f.causes += ", by " + spoilt["plugin"].get<std::string>() + " " +
+                std::to_string(spoilt["count"].get<uint64_t>());
+  }
   f.rays_per_second = s["rays"]["per_second"].get<double>();
   const nlohmann::json& layer = s["layers"][0];
   if (!layer["chain"].get<bool>()) return f;

@@ -31,7 +31,7 @@ struct Blocks {
 // What a render's record says beside the picture.
 struct RenderFigures {
   uint64_t dropped = 0;
-  std::string causes;  // of dropped samples, "negative 12, infinite 3"
+  std::string causes;  // of dropped samples, "negative 12, infinite 3, by material \"x\" 15"
   double rays_per_second = 0.0;
   std::optional<double> acceptance;
   std::optional<uint64_t> longest_stuck;

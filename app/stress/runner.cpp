@@ -231,10 +231,11 @@ Outcome Runner::judge(const Case& c, const Point& point, const Pair& pair, doubl
   if (usual.rays_per_second > 0.0) {
     outcome.relative_speed = figures.rays_per_second / usual.rays_per_second;
   }
+  const auto told = [&](const std::string& what) {
+    return figures.causes.find(what) != std::string::npos;
+  };
   if (point.drops.empty() ? figures.dropped > 0
-                          : std::ranges::none_of(point.drops, [&](const std::string& cause) {
-                              return figures.causes.find(cause) != std::string::npos;
-                            })) {
+                          : std::ranges::none_of(point.drops, told) || !told(point.culprit)) {
     outcome.verdict = Verdict::fail;
     outcome.reason +=
         fmt::format("{}{} samples were dropped{}{}", outcome.reason.empty() ? "" : "; ",

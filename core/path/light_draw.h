@@ -6,6 +6,7 @@
 #include "core/path/numbers.h"
 #include "core/path/path_expression.h"
 #include "core/path/surface.h"
+#include "core/path/witness.h"
 #include "core/scene/scene.h"
 
 namespace pssmlt {
@@ -29,7 +30,10 @@ class LightDraw {
   LightDraw(const Scene& scene, LightPick pick, const LightReceiver& at, const LightNumbers& u)
       : choice_(scene.lights().choose(pick, at, u.choice)),
         toward_(choice_.light ? choice_.light->toward(at.position, u.position) : std::nullopt) {
-    if (toward_) traits_ = choice_.light->traits();
+    if (!toward_) return;
+    traits_ = choice_.light->traits();
+    if (Witness* const w = Witness::here()) [[unlikely]]
+      w->look_at(toward_->value, *choice_.light);
   }
   LightDraw(const Scene& scene, LightPick pick, const Surface& surface, const LightNumbers& u)
       : LightDraw(scene, pick, light_receiver(scene, pick, surface), u) {}

@@ -2,6 +2,7 @@
 
 #include "core/path/flight.h"
 #include "core/path/way_beneath.h"
+#include "core/path/witness.h"
 
 namespace pssmlt {
 SubpathTracer::SubpathTracer(const Scene& scene, const PathLimits& limits, Mis mis, LightPick pick)
@@ -34,6 +35,8 @@ void SubpathTracer::from_light(PrimarySample& u, Subpath& path) const {
   if (!choice.light) return;
   const auto start = choice.light->emit(n.position, dvec2(n.direction));
   if (!start) return;
+  if (Witness* const w = Witness::here()) [[unlikely]]
+    w->look_at(start->weight(), *choice.light);
   path.start = *start;
   path.started = true;
   path.light = choice.light;

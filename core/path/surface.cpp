@@ -1,6 +1,7 @@
 #include "core/path/surface.h"
 
 #include "core/diffusion/boundary_bsdf.h"
+#include "core/path/witness.h"
 
 namespace pssmlt {
 
@@ -10,11 +11,16 @@ bool Surface::shade(const Scene& scene, const vec3& wo_world, MaterialNumbers u)
     frame_ = Frame();
     wo_local_ = wo;
     bsdf_ = medium->phase(hit.position, storage_);
+    if (Witness* const w = Witness::here()) [[unlikely]]
+      bsdf_ = w->watch(*bsdf_, *medium);
     return !is_black(point_.scattering);
   }
   frame_ = scene.shading_frame(hit);
   wo_local_ = frame_.to_local(wo);
-  bsdf_ = hit.primitive->material->bsdf(hit, u, storage_);
+  const Material& material = *hit.primitive->material;
+  bsdf_ = material.bsdf(hit, u, storage_);
+  if (Witness* const w = Witness::here(); w && bsdf_) [[unlikely]]
+    bsdf_ = w->watch(*bsdf_, material);
   return bsdf_ != nullptr && wo_local_.z != 0.f;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/plugin/plugin.h"
+#include "core/plugin/plugin_name.h"
 
 namespace pssmlt {
 
@@ -53,6 +54,8 @@ std::shared_ptr<Kind> make_plugin(const FoundPlugin& found, Parameters& paramete
                                   const PluginArguments& arguments = {}) {
   std::shared_ptr<Kind> made(static_cast<Kind*>(found.descriptor->create(parameters, arguments)));
   parameters.check_all_read();
+  if constexpr (std::is_base_of_v<PluginNamed, Kind>)
+    made->name_plugin(found.descriptor->kind, found.descriptor->name);
   return made;
 }
 

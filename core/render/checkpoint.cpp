@@ -20,7 +20,7 @@ namespace pssmlt {
 namespace {
 
 constexpr char magic_word[8] = {'P', 'S', 'S', 'M', 'L', 'T', 'C', 'P'};
-constexpr uint32_t format_version = 2;
+constexpr uint32_t format_version = 3;
 constexpr uint32_t order_mark = 0x01020304;  // reads differently on another byte order
 
 struct Header {

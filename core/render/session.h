@@ -96,6 +96,7 @@ class Session {
   nlohmann::json statistics(const RenderResult& result) const;
   nlohmann::json layer_statistics(const LayerState& layer) const;
   void add_efficiency(const Developer& developer, RenderResult& result) const;
+  RejectionLog::Culprits all_culprits() const;
   nlohmann::json rejection_statistics() const;
 
   const BuiltScene& scene_;
@@ -109,6 +110,7 @@ class Session {
   std::vector<RayCounters> rays_;      // per slot
   RayCounters earlier_rays_;           // of the runs that were resumed
   std::array<uint64_t, rejection_count> earlier_rejections_{};
+  RejectionLog::Culprits earlier_culprits_;
   double earlier_seconds_ = 0.0;
   Stopwatch watch_;
   RenderPhase phase_ = RenderPhase::prepare;

@@ -31,6 +31,13 @@ void Session::checkpoint() {
     archive.value(earlier_rejections_[static_cast<size_t>(cause)] +
                   rejections_.of(static_cast<Rejection>(cause)));
   }
+  const RejectionLog::Culprits culprits = all_culprits();
+  archive.value<uint64_t>(culprits.size());
+  for (const auto& [of, count] : culprits) {
+    archive.text(of.first);
+    archive.value(of.second);
+    archive.value(count);
+  }
   for (const LayerState& l : layers_) {
     archive.value(l.rounds);
     archive.value(l.samples);
@@ -63,6 +70,11 @@ void Session::resume() {
   earlier_seconds_ = archive.get<double>();
   earlier_rays_ = archive.get<RayCounters>();
   for (uint64_t& count : earlier_rejections_) count = archive.get<uint64_t>();
+  for (auto left = archive.get<uint64_t>(); left > 0; --left) {
+    std::string plugin = archive.get_text();
+    const auto cause = archive.get<Rejection>();
+    earlier_culprits_[{std::move(plugin), cause}] = archive.get<uint64_t>();
+  }
   for (LayerState& l : layers_) {
     l.rounds = archive.get<int64_t>();
     l.samples = archive.get<double>();

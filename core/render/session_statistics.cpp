@@ -58,6 +58,12 @@ nlohmann::json Session::layer_statistics(const LayerState& layer) const {
   return json;
 }
 
+RejectionLog::Culprits Session::all_culprits() const {
+  RejectionLog::Culprits all = earlier_culprits_;
+  for (const auto& [of, count] : rejections_.culprits()) all[of] += count;
+  return all;
+}
+
 nlohmann::json Session::rejection_statistics() const {
   nlohmann::json json;
   uint64_t total = 0;
@@ -70,6 +76,11 @@ nlohmann::json Session::rejection_statistics() const {
   }
   json["total"] = total;
   json["causes"] = causes;
+  json["plugins"] = nlohmann::json::array();
+  for (const auto& [of, count] : all_culprits()) {
+    json["plugins"].push_back(
+        {{"plugin", of.first}, {"cause", to_string(of.second)}, {"count", count}});
+  }
   json["examples"] = nlohmann::json::array();
   for (const ReplayKey& key : rejections_.examples()) {
     json["examples"].push_back({{"replay", key.text},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/path/witness.h"
 #include "core/sampling/replay.h"
 
 namespace pssmlt {
@@ -52,9 +53,11 @@ std::string_view to_string(Rejection cause) {
   return "";
 }
 
-void RejectionLog::count(Rejection cause, const std::string& key, const dvec2& raster) {
+void RejectionLog::count(Rejection cause, const std::string& key, const dvec2& raster,
+                         const std::string& plugin) {
   counts_[static_cast<size_t>(cause)].fetch_add(1, std::memory_order_relaxed);
   const std::lock_guard lock(mutex_);
+  ++culprits_[{plugin, cause}];
   if (examples_.size() < example_count) examples_.push_back({key, cause, raster});
 }
 
@@ -67,6 +70,11 @@ uint64_t RejectionLog::total() const {
   uint64_t sum = 0;
   for (const auto& count : counts_) sum += count;
   return sum;
+}
+
+RejectionLog::Culprits RejectionLog::culprits() const {
+  const std::lock_guard lock(mutex_);
+  return culprits_;
 }
 
 std::vector<ReplayKey> RejectionLog::examples() const {
@@ -117,6 +125,7 @@ bool Evaluator::check(PrimarySample& u, Splats& out) {
 }
 
 void Evaluator::drop(Rejection cause, PrimarySample& u, Splats& out) {
+  const std::string plugin = log_.wants_culprits() ? culprit(u, out) : "not looked for";
   out.clear();
   std::string key;
   if (log_.wants_examples()) {
@@ -124,7 +133,20 @@ void Evaluator::drop(Rejection cause, PrimarySample& u, Splats& out) {
                                     std::to_string(pixel_) + ":" + std::to_string(index_)
                               : numbers_to_text(u);
   }
-  log_.count(cause, key, u.raster_known() ? u.raster() : dvec2(-1.0));
+  log_.count(cause, key, u.raster_known() ? u.raster() : dvec2(-1.0), plugin);
+}
+
+// In a workspace of its own: what this one keeps for later samples must not point at watched Bsdfs.
+std::string Evaluator::culprit(PrimarySample& u, Splats& out) const {
+  Witness witness;
+  Workspace workspace;
+  out.clear();
+  try {
+    integrator_.sample(u, out, workspace);
+  } catch (...) {
+    // It did so before, which is why we are here.
+  }
+  return witness.culprit().empty() ? integrator_.plugin_name() : witness.culprit();
 }
 
 }  // namespace pssmlt

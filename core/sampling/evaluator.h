@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -28,17 +29,26 @@ struct ReplayKey {
 // Counters shared by all threads of a render; bumped rarely (only on rejection).
 class RejectionLog {
  public:
-  void count(Rejection cause, const std::string& key, const dvec2& raster);
+  // `plugin`: what spoilt the sample, as far as is known.
+  void count(Rejection cause, const std::string& key, const dvec2& raster,
+             const std::string& plugin);
   uint64_t total() const;
   uint64_t of(Rejection cause) const { return counts_[static_cast<size_t>(cause)]; }
   // True while keys are still kept; after that only the counts go on.
   bool wants_examples() const;
+  // True until so many culprits have been looked for that looking for more would cost time.
+  bool wants_culprits() const { return total() < most_culprits; }
+  // How many samples each plugin has spoilt, by cause.
+  using Culprits = std::map<std::pair<std::string, Rejection>, uint64_t>;
+  Culprits culprits() const;
   // The first few keys, for the summary.
   std::vector<ReplayKey> examples() const;
 
  private:
+  static constexpr uint64_t most_culprits = 10'000;
   std::array<std::atomic<uint64_t>, rejection_count> counts_{};
   mutable std::mutex mutex_;
+  Culprits culprits_;
   std::vector<ReplayKey> examples_;
 };
 
@@ -58,6 +68,8 @@ class Evaluator {
  private:
   bool check(PrimarySample& u, Splats& out);
   void drop(Rejection cause, PrimarySample& u, Splats& out);
+  // Evaluates u once more to find out what spoils it; the integrator if nothing else does.
+  std::string culprit(PrimarySample& u, Splats& out) const;
   const Integrator& integrator_;
   RejectionLog& log_;
   float largest_value_;

@@ -107,6 +107,21 @@ void transform_hit(const Transform& to_render, double rounding, Hit& hit) {
 
 namespace {
 
+// Frobenius norms bound what a matrix does to lengths.
+float stretch_of(const Accel::Instance& instance) {
+  double most = 0.0;
+  for (const float time : {0.f, 1.f}) {
+    const Transform to_render = instance.at(time);
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const dvec3 column(to_render.matrix()[i]);
+      sum += glm::dot(column, column);
+    }
+    most = std::max(most, sum);
+  }
+  return static_cast<float>(std::sqrt(most));
+}
+
 void set_transform(RTCGeometry geometry, const Accel::Instance& instance) {
   if (!instance.motion) {
     const glm::mat4 m(instance.to_render.matrix());
@@ -139,6 +154,7 @@ struct Accel::Impl {
   std::vector<const Primitive*> primitives;            // by geometry ID of the top scene
   std::vector<std::vector<const Primitive*>> objects;  // by geometry ID of an object's scene
   std::vector<Instance> instances;
+  std::vector<float> stretches;  // of the instances: upper bounds of what lengths grow by
   uint32_t first_instance_id = 0;
   std::atomic<int64_t> bytes{0};
   std::string failure;
@@ -257,6 +273,7 @@ void Accel::build(const std::vector<const Primitive*>& primitives,
     const RTCGeometry geometry = rtcNewGeometry(d.device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, d.object_scenes[instances[i].object]);
     set_transform(geometry, instances[i]);
+    d.stretches.push_back(stretch_of(instances[i]));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(d.top, geometry, d.first_instance_id + i);
     rtcReleaseGeometry(geometry);
@@ -305,16 +322,38 @@ bool Accel::occluded(const Ray& ray) const {
   return query.tfar < 0.f;
 }
 
-void Accel::fill(const RawHit& raw, Hit& hit) const {
+// Points that are known worse than this part of the ray's length are found anew: angles at the
+// other end change by as much.
+constexpr float coarse = 0x1p-16f;
+
+void Accel::fill(const Ray& ray, const RawHit& raw, Hit& hit) const {
   hit.distance = raw.t;
   hit.primitive = raw.primitive;
   hit.element = raw.element;
   hit.with_derivatives = raw.primitive->derivatives;
   raw.primitive->shape->fill(raw.where, hit);
+  float grain = raw.primitive->grain;
   if (raw.instance >= 0) {
-    const Instance& instance = impl_->instances[static_cast<size_t>(raw.instance)];
-    transform_hit(instance.at(raw.time), instance.motion ? moving_error : still_error, hit);
+    to_render(raw, hit);
+    grain *= impl_->stretches[static_cast<size_t>(raw.instance)];
   }
+  if (grain > coarse * raw.t) refine(ray, raw, hit);
+}
+
+void Accel::to_render(const RawHit& raw, Hit& hit) const {
+  const Instance& instance = impl_->instances[static_cast<size_t>(raw.instance)];
+  transform_hit(instance.at(raw.time), instance.motion ? moving_error : still_error, hit);
+}
+
+void Accel::refine(const Ray& ray, const RawHit& raw, Hit& hit) const {
+  const Shape& shape = *raw.primitive->shape;
+  const dvec3 origin(ray.origin), direction(ray.direction);
+  if (raw.instance < 0) return shape.refine(origin, direction, hit);
+  const Transform from_render =
+      impl_->instances[static_cast<size_t>(raw.instance)].at(raw.time).inverse();
+  shape.fill(raw.where, hit);
+  shape.refine(from_render.point(origin), from_render.vector(direction), hit);
+  to_render(raw, hit);
 }
 
 SceneBounds Accel::bounds() const {

@@ -45,8 +45,8 @@ class Accel {
   // A ray that is not finite, or starts beyond reach(), meets nothing and sees nothing.
   bool intersect(const Ray& ray, RawHit& hit) const;
   bool occluded(const Ray& ray) const;
-  // Completes the hit in render space (footprint left to the scene).
-  void fill(const RawHit& raw, Hit& hit) const;
+  // Completes the hit of a ray in render space (footprint left to the scene).
+  void fill(const Ray& ray, const RawHit& raw, Hit& hit) const;
 
   SceneBounds bounds() const;  // of everything, radius 0 if empty
   // Largest coordinate of geometry.
@@ -58,6 +58,8 @@ class Accel {
   uint64_t bytes() const;  // Embree's own memory
 
  private:
+  void refine(const Ray& ray, const RawHit& raw, Hit& hit) const;
+  void to_render(const RawHit& raw, Hit& hit) const;
   float reach_ = 0.f;
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -103,6 +103,7 @@ std::unique_ptr<Primitive> SceneBuilder::build_primitive(const ShapeDescription&
   parameters.set_transform(placed);
   parameters.set_reverse_orientation(shape.reverse_orientation);
   primitive->shape = make_plugin<Shape>(found, parameters);
+  primitive->grain = primitive->shape->grain();
   check_place(*primitive->shape, placed, shape.where);
   primitive->name = shape.type + " " + to_string(shape.where);
   return primitive;

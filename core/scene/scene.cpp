@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/path/witness.h"
 #include "core/scene/accel.h"
 #include "core/scene/path_log.h"
 
@@ -45,8 +46,8 @@ float Scene::footprint(const vec3& position) const {
   return parallel_ ? pixel_spread_ : pixel_spread_ * glm::distance(camera_center_, position);
 }
 
-void Scene::complete(const RawHit& raw, Hit& hit) const {
-  accel_->fill(raw, hit);
+void Scene::complete(const Ray& ray, const RawHit& raw, Hit& hit) const {
+  accel_->fill(ray, raw, hit);
   hit.footprint = footprint(hit.position);
 }
 
@@ -74,7 +75,7 @@ bool Scene::nearest(const Ray& ray, Hit& hit) const {
   ++thread_counters.shadow;
   RawHit raw;
   const bool found = accel_->intersect(ray, raw);
-  if (found) complete(raw, hit);
+  if (found) complete(ray, raw, hit);
   if (path_logged) log_ray("shadow ray", ray, found ? "meets " + hit.primitive->name : "free");
   return found;
 }
@@ -93,7 +94,7 @@ bool Scene::intersect_any(const Ray& ray, float& u_alpha, Hit& hit) const {
   } else {
     RawHit raw;
     found = accel_->intersect(ray, raw);
-    if (found) complete(raw, hit);
+    if (found) complete(ray, raw, hit);
   }
   if (path_logged) {
     log_ray(
@@ -108,7 +109,7 @@ bool Scene::intersect_cut_outs(const Ray& ray, float& u_alpha, Hit& hit) const {
   Ray rest = ray;
   float travelled = 0.f;
   while (accel_->intersect(rest, raw)) {
-    complete(raw, hit);
+    complete(rest, raw, hit);
     const float alpha = opacity(hit);
     hit.distance += travelled;
     if (alpha >= 1.f || u_alpha < alpha) return true;
@@ -143,7 +144,7 @@ float Scene::visibility_of_cut_outs(const Ray& ray) const {
     hit.primitive = raw.primitive;
     const bool seen = !bounds_medium(hit);
     if (seen && !raw.primitive->alpha) return 0.f;
-    complete(raw, hit);
+    complete(rest, raw, hit);
     if (seen) passed *= 1.f - opacity(hit);
     if (!(passed > 0.f)) return 0.f;
     rest.origin = offset_origin(hit.position, hit.error, hit.ng, ray.direction);
@@ -167,12 +168,20 @@ Ray Scene::segment(const vec3& from, const vec3& from_error, const vec3& from_no
 Rgb Scene::emitted(const Hit& hit, const vec3& direction) const {
   const Light* const light = hit.primitive->light;
   if (!light) return Rgb(0.f);
-  return light->evaluate({hit.position, hit.ng, hit.uv, hit.element}, direction).value;
+  const Rgb value = light->evaluate({hit.position, hit.ng, hit.uv, hit.element}, direction).value;
+  if (Witness* const w = Witness::here()) [[unlikely]]
+    w->look_at(value, *light);
+  return value;
 }
 
 Rgb Scene::background(const vec3& direction) const {
   Rgb sum(0.f);
-  for (const Light* light : light_table_.infinite()) sum += light->background(direction);
+  for (const Light* light : light_table_.infinite()) {
+    const Rgb value = light->background(direction);
+    if (Witness* const w = Witness::here()) [[unlikely]]
+      w->look_at(value, *light);
+    sum += value;
+  }
   return sum;
 }
 

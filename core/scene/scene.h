@@ -32,6 +32,7 @@ struct Primitive {
   const MediumInterface* media = nullptr;       // on its sides; null: as before the surface
   bool transmits = false;                       // light may pass to the other side
   bool derivatives = true;                      // of hits are read (Hit::with_derivatives)
+  float grain = 0.f;                            // Shape::grain()
   bool bounds_medium = false;                   // cannot be seen and only separates media
   std::string name;                             // for messages: `sphere "file:line"`
 };
@@ -102,7 +103,7 @@ class Scene {
   std::unique_ptr<Accel> accel_;
   // Diameter of a pixel at a point [m].
   float footprint(const vec3& position) const;
-  void complete(const RawHit& raw, Hit& hit) const;
+  void complete(const Ray& ray, const RawHit& raw, Hit& hit) const;
   bool intersect_cut_outs(const Ray& ray, float& u_alpha, Hit& hit) const;
   float visibility_of_cut_outs(const Ray& ray) const;
   // From where the camera stands at a time to where camera_ does.

@@ -12,13 +12,16 @@ namespace {
 // Humphreys 2023, section 6.8.5).
 constexpr float interpolation_error = 7.f * 0x1p-24f / (1.f - 7.f * 0x1p-24f);
 
+float longest_edge(const vec3& p0, const vec3& p1, const vec3& p2) {
+  return std::sqrt(
+      std::max({length_squared(p1 - p0), length_squared(p2 - p1), length_squared(p0 - p2)}));
+}
+
 // How far off Embree may see the plane of a sliver [m]: it takes the normal from edges that start
 // at the ray, with 4 roundings of the longest edge L, which the height w over that edge divides (4
 // u L^2 / w, docs/numerics.md). No further than w, lest rays start behind what is near; 0 for other
 // shapes.
-float sliver_error(const vec3& p0, const vec3& p1, const vec3& p2, double area) {
-  const float longest = std::sqrt(
-      std::max({length_squared(p1 - p0), length_squared(p2 - p1), length_squared(p0 - p2)}));
+float sliver_error(float longest, double area) {
   const float width = 2.f * static_cast<float>(area) / longest;
   if (!(width < 0.1f * longest)) return 0.f;
   return std::min(0x1p-22f * longest * (longest / width), width);
@@ -126,8 +129,11 @@ size_t MeshShape::measure() {
     const double length = glm::length(a);
     if (!(static_cast<float>(length) > 0.f)) continue;
     face_normals_.emplace_back((flip_ ? -a : a) / length);
-    const float sliver =
-        sliver_error(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z], length);
+    const float longest =
+        longest_edge(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]);
+    // Embree's coordinates come from some four roundings.
+    grain_ = std::max(grain_, 0x1p-22f * longest);
+    const float sliver = sliver_error(longest, length);
     if (sliver > 0.f) sliver_errors_.resize(triangles.size());
     if (sliver > 0.f) sliver_errors_[kept] = sliver;
     sum += length;
@@ -234,6 +240,26 @@ void MeshShape::fill(const vec2& where, Hit& hit) const {
   }
   set_derivatives(hit.element, c, hit);
   if (!tangents_.empty()) set_tangent(hit.element, b, hit);
+}
+
+// Barycentric coordinates of triangles much larger than what is seen of them are too coarse for a
+// position in single precision, and so is the ray tracer's distance.
+void MeshShape::refine(const dvec3& origin, const dvec3& direction, Hit& hit) const {
+  const Corners c = corners(hit.element);
+  const dvec3 p0(c.p0), e1 = dvec3(c.p1) - p0, e2 = dvec3(c.p2) - p0;
+  const dvec3 n = glm::cross(e1, e2);
+  const double t = glm::dot(p0 - origin, n) / glm::dot(direction, n);
+  if (!(t > 0.0) || !std::isfinite(t)) return;  // in its plane: nothing better is known
+  const dvec3 p = origin + t * direction, from = p - p0;
+  const double inverse = 1.0 / glm::dot(n, n), b1 = glm::dot(glm::cross(from, e2), n) * inverse,
+               b2 = glm::dot(glm::cross(e1, from), n) * inverse;
+  hit.position = vec3(p);
+  hit.distance = static_cast<float>(t);
+  hit.where = vec2(b1, b2);
+  const glm::uvec3& i = mesh_.triangles[hit.element];
+  hit.uv = mesh_.uvs.empty() ? vec2(b1 + b2, b2)
+                             : vec2((1.0 - b1 - b2) * dvec2(mesh_.uvs[i.x]) +
+                                    b1 * dvec2(mesh_.uvs[i.y]) + b2 * dvec2(mesh_.uvs[i.z]));
 }
 
 // Solves edges = (du dv) derivatives for position and normal (Pharr, Jakob, Humphreys 2023, section

@@ -28,6 +28,8 @@ class MeshShape : public Shape {
   const TriangleMesh* mesh() const final { return &mesh_; }
   Bounds bounds() const final;
   void fill(const vec2& where, Hit& hit) const final;
+  float grain() const final { return grain_; }
+  void refine(const dvec3& origin, const dvec3& direction, Hit& hit) const final;
   float area() const final { return area_; }
   float pdf_area(const SurfaceSample&) const final { return inverse_area_; }
   // Uniform over the surface: a triangle by its area, then a point in it.
@@ -64,6 +66,7 @@ class MeshShape : public Shape {
   std::vector<float> sliver_errors_;  // [m], by triangle; empty if there are no slivers
   FacingPlane plane_;
   float area_ = 0.f, inverse_area_ = 0.f;  // [m^2], [1/m^2]; both 0 without triangles
+  float grain_ = 0.f;                      // [m]
   bool flip_ = false;                      // the index order gives the inside
   mutable std::atomic<bool> areas_made_{false};
   mutable std::once_flag areas_once_;

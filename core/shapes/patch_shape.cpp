@@ -7,9 +7,11 @@ namespace {
 
 template <typename V>
 V bilinear(const std::vector<V>& values, const Quad& q, const dvec2& uv) {
-  const float u = static_cast<float>(uv.x), v = static_cast<float>(uv.y);
-  return (1.f - v) * ((1.f - u) * values[q[0]] + u * values[q[1]]) +
-         v * ((1.f - u) * values[q[2]] + u * values[q[3]]);
+  using Double = glm::vec<V::length(), double>;
+  const auto along_u = [&](uint32_t a, uint32_t b) {
+    return (1.0 - uv.x) * Double(values[a]) + uv.x * Double(values[b]);
+  };
+  return V((1.0 - uv.y) * along_u(q[0], q[1]) + uv.y * along_u(q[2], q[3]));
 }
 
 // Derivatives of bilinear() along u and v.
@@ -46,6 +48,10 @@ PatchShape::PatchShape(PatchData data, const Parameters& p)
       boxes[i].add(c + rounding_error(dvec3(c)));
     }
     areas.push_back(patch_area(i));
+    const Patch& q = patch(i);
+    const double longest = std::max({glm::length(q.du(0.0)), glm::length(q.du(1.0)),
+                                     glm::length(q.dv(0.0)), glm::length(q.dv(1.0))});
+    grain_ = std::max(grain_, static_cast<float>(0x1p-24 * longest));  // two coordinates
   }
   tree_ = BoxTree(boxes);
   choice_ = Distribution1D(std::span<const double>(areas));
@@ -167,6 +173,23 @@ void PatchShape::fill(const vec2& where, Hit& hit) const {
   }
   hit.uv = texture_uv(hit.element, uv);
   if (!data_.uvs.empty()) set_texture_derivatives(hit.element, uv, hit);
+}
+
+void PatchShape::refine(const dvec3& origin, const dvec3& direction, Hit& hit) const {
+  const Patch q = patch(hit.element);
+  // Of the two points that a line may meet, the one that was found.
+  constexpr double margin = 0x1p-20;
+  const dvec2 rounded(hit.where);
+  double nearest = std::numeric_limits<double>::infinity();
+  q.roots(origin, direction, margin, [&](double t, const dvec2& uv) {
+    const double off = glm::distance(uv, rounded);
+    if (!(t > 0.0) || !(off < nearest)) return;
+    nearest = off;
+    hit.where = vec2(uv);
+    hit.position = vec3(q.at(uv));
+    hit.distance = static_cast<float>(t);
+    hit.uv = texture_uv(hit.element, uv);
+  });
 }
 
 // From derivatives along the patch's parameters to those along the texture coordinates.

@@ -35,6 +35,8 @@ class PatchShape final : public Shape {
   Bounds bounds() const override { return tree_.bounds(); }
   std::optional<UserHit> intersect(const Ray& ray, float t_min) const override;
   void fill(const vec2& where, Hit& hit) const override;
+  float grain() const override { return grain_; }
+  void refine(const dvec3& origin, const dvec3& direction, Hit& hit) const override;
   float area() const override { return static_cast<float>(choice_.sum()); }
   // A patch by its area, then uniform in its parameters or by its emission.
   SurfaceSample sample_area(const vec2& u) const override;
@@ -69,6 +71,7 @@ class PatchShape final : public Shape {
   PatchData data_;
   bool flip_ = false;
   BoxTree tree_;
+  float grain_ = 0.f;  // [m]
   Distribution1D choice_;
 };
 

@@ -63,8 +63,10 @@ vec3 QuadricShape::render_normal(const dvec3& normal) const {
   return vec3(side_ * glm::normalize(to_render_.normal(normal)));
 }
 
-void QuadricShape::fill(const vec2& where, Hit& hit) const {
-  const Local local = at(dvec2(where));
+void QuadricShape::fill(const vec2& where, Hit& hit) const { fill_at(dvec2(where), hit); }
+
+void QuadricShape::fill_at(const dvec2& uv, Hit& hit) const {
+  const Local local = at(uv);
   const dvec3 p = to_render_.point(local.position);
   const dvec3 n = to_render_.normal(local.normal);
   const double length = glm::length(n);
@@ -81,7 +83,26 @@ void QuadricShape::fill(const vec2& where, Hit& hit) const {
   hit.dpdv = vec3(to_render_.vector(local.dpdv));
   hit.dndu = normal_derivative(local.dndu);
   hit.dndv = normal_derivative(local.dndv);
-  hit.uv = where;
+  hit.uv = vec2(uv);
+}
+
+float QuadricShape::grain() const {
+  const Bounds b = bounds();
+  // An angle is a part of the turn, rounded to 2^-25, and a circle pi times as long as wide.
+  return 0x1p-23f * glm::distance(b.min, b.max);
+}
+
+void QuadricShape::refine(const dvec3& origin, const dvec3& direction, Hit& hit) const {
+  const dmat4& to_object = to_render_.inverse_matrix();
+  // The same of two roots, not the one where the ray may start.
+  const double t = static_cast<double>(hit.distance);
+  const auto root =
+      intersect_local(dvec3(to_object * glm::dvec4(origin, 1.0)),
+                      dvec3(to_object * glm::dvec4(direction, 0.0)), 0.5 * t, 2.0 * t);
+  if (!root) return;
+  fill_at(root->uv, hit);
+  hit.distance = static_cast<float>(root->t);
+  hit.where = vec2(root->uv);
 }
 
 SurfaceSample QuadricShape::surface_point(const dvec2& uv) const {

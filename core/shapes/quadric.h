@@ -15,6 +15,8 @@ class QuadricShape : public Shape {
   Bounds bounds() const final;
   std::optional<UserHit> intersect(const Ray& ray, float t_min) const final;
   void fill(const vec2& where, Hit& hit) const final;
+  float grain() const final;
+  void refine(const dvec3& origin, const dvec3& direction, Hit& hit) const final;
   float area() const final;
   // Uniform in the shape's own space; .pdf follows what the transform does to areas.
   SurfaceSample sample_area(const vec2& u) const final;
@@ -50,6 +52,7 @@ class QuadricShape : public Shape {
 
  private:
   vec3 render_normal(const dvec3& normal) const;
+  void fill_at(const dvec2& uv, Hit& hit) const;
 
   Transform to_render_;
   glm::dmat3 linear_;

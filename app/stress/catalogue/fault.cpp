@@ -33,7 +33,8 @@ Material "stress_fault" "string fault" ")" +
     c.points.push_back({.value = of_fault.first,
                         .scene = scene,
                         .oracle = Means{lit_quarters(1.0), 2e-3},
-                        .drops = of_fault.second});
+                        .drops = of_fault.second,
+                        .culprit = "material \"stress_fault\""});
   }
   c.polite = [] {
     return plane_view(32, 1.0, 1.0) + R"(

@@ -80,8 +80,9 @@ TEST(StressCatalogue, HasDistinctCasesOfAllGroups) {
 TEST(StressRun, ExtremesPass) {
   add_faulty_plugins();
   if (test::reduced()) {
-    const Cases few = extremes({"scale-bits", "radiance-bits", "slab-index", "slivers",
-                                "stacked-glass", "refused-geometry", "fov", "faulty-material"});
+    const Cases few =
+        extremes({"scale-bits", "radiance-bits", "slab-index", "slivers", "stacked-glass",
+                  "refused-geometry", "fov", "ground", "faulty-material"});
     for (const Entry& e : run(few, {"path"}, {"sobol", "pssmlt"})) {
       EXPECT_NE(e.outcome.verdict, Verdict::fail) << told(few, e);
     }
@@ -90,7 +91,7 @@ TEST(StressRun, ExtremesPass) {
   const Cases cases =
       extremes({"scale-bits", "coordinates", "radiance-bits", "light-radius", "metal-furnace-0",
                 "density-integral", "slab-index", "stacked-glass", "white-sphere-1", "extinction",
-                "slivers", "refused-geometry", "fov", "constant", "no-large-steps",
+                "slivers", "refused-geometry", "ground", "fov", "constant", "no-large-steps",
                 "faulty-material", "throwing-integrator"});
   for (const Entry& e : run(cases, {"path"}, {"sobol", "pssmlt"})) {
     EXPECT_TRUE(e.outcome.verdict == Verdict::pass || e.outcome.verdict == Verdict::cannot_see)
