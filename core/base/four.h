@@ -8,6 +8,7 @@
 namespace pssmlt {
 
 using Four = float __attribute__((vector_size(16)));
+using FourBits = uint32_t __attribute__((vector_size(16)));
 
 inline Four four(float x) { return Four{x, x, x, x}; }
 inline Four larger(Four a, Four b) { return a > b ? a : b; }

@@ -3,18 +3,19 @@
 
 #include <bit>
 
+#include "core/base/four.h"
 #include "core/base/math.h"
 
 namespace pssmlt {
 
-// The neighbouring float of a finite number on the side of the sign of `toward`, x itself where
+// The neighbouring floats of finite numbers on the side of the sign of `toward`, x itself where
 // that is 0. Without branches, which no processor could foresee; std::nextafter is a library call.
-inline float next_toward(float x, float toward) {
-  const auto bits = std::bit_cast<uint32_t>(x),
-             sign = std::bit_cast<uint32_t>(toward) & 0x80000000u;
-  const uint32_t moved = bits + 1u - ((bits ^ sign) >> 31 << 1);
-  const uint32_t next = x == 0.f ? sign | 1u : moved;
-  return toward == 0.f ? x : std::bit_cast<float>(next);
+inline Four next_toward(Four x, Four toward) {
+  const auto bits = std::bit_cast<FourBits>(x),
+             sign = std::bit_cast<FourBits>(toward) & 0x80000000u;
+  const FourBits moved = bits + 1u - ((bits ^ sign) >> 31 << 1);
+  const FourBits next = x == 0.f ? sign | 1u : moved;
+  return std::bit_cast<Four>(toward == 0.f ? bits : next);
 }
 
 struct Ray {
@@ -29,11 +30,11 @@ struct Ray {
 // can't lie behind the surface (Pharr, Jakob, Humphreys 2023, section 6.8.6). No absolute epsilon.
 inline vec3 offset_origin(const vec3& position, const vec3& error, const vec3& ng,
                           const vec3& direction) {
-  const float d = glm::dot(glm::abs(ng), error);
-  const vec3 offset = glm::dot(direction, ng) < 0.f ? -d * ng : d * ng;
-  vec3 p = position + offset;
-  for (int i = 0; i < 3; ++i) p[i] = next_toward(p[i], offset[i]);
-  return p;
+  const float d = std::abs(ng.x) * error.x + std::abs(ng.y) * error.y + std::abs(ng.z) * error.z;
+  const vec3 offset = (glm::dot(direction, ng) < 0.f ? -d : d) * ng;
+  const Four toward = {offset.x, offset.y, offset.z, 0.f};
+  const Four p = next_toward(Four{position.x, position.y, position.z, 0.f} + toward, toward);
+  return {p[0], p[1], p[2]};
 }
 
 }  // namespace pssmlt

@@ -1,6 +1,7 @@
 #include "core/scene/light_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace pssmlt {
@@ -18,17 +19,28 @@ bool is_bounded(const LightBounds& b) {
 
 }  // namespace
 
+LightIndex::LightIndex(const std::vector<const Light*>& lights) {
+  slots_.resize(std::bit_ceil(2 * lights.size() + 1));
+  mask_ = slots_.size() - 1;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    if (find(lights[i])) continue;
+    size_t slot = first_slot(lights[i]);
+    while (slots_[slot].light) slot = (slot + 1) & mask_;
+    slots_[slot] = {lights[i], i};
+  }
+}
+
 LightTable::LightTable(const std::vector<const Light*>& lights, const SceneBounds& bounds) {
   std::vector<double> power;
   for (const Light* light : lights) {
     const double p = finite_power(*light);
     if (!(p > 0.0)) continue;
-    index_.emplace(light, lights_.size());
     lights_.push_back(light);
     power.push_back(p);
     const EndpointTraits traits = light->traits();
     if (traits.infinite && !traits.delta_direction) infinite_.push_back(light);
   }
+  index_ = LightIndex(lights_);
   set_probabilities(power);
   if (lights_.size() >= many) build_tree(power, bounds);
 }
@@ -84,7 +96,7 @@ LightTable::Choice LightTable::choose(double u) const {
 
 float LightTable::probability(const Light* light) const {
   const auto found = index_.find(light);
-  return found == index_.end() ? 0.f : probability_[found->second];
+  return found ? probability_[*found] : 0.f;
 }
 
 LightTable::Choice LightTable::choose(LightPick pick, const LightReceiver& at, double u) const {
@@ -99,10 +111,10 @@ float LightTable::probability(LightPick pick, const LightReceiver& at, const Lig
   if (pick == LightPick::power || (pick == LightPick::bvh && tree_.empty()))
     return probability(light);
   const auto found = index_.find(light);
-  if (found == index_.end()) return 0.f;
+  if (!found) return 0.f;
   if (pick == LightPick::uniform)
     return static_cast<float>(1.0 / static_cast<double>(lights_.size()));
-  return static_cast<float>(probability_by_place(at, found->second));
+  return static_cast<float>(probability_by_place(at, *found));
 }
 
 // A part of u decides each question, what is left of it the next one.

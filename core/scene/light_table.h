@@ -2,7 +2,7 @@
 // of them, by what they may do where the light is wanted (core/scene/light_tree.h).
 #pragma once
 
-#include <unordered_map>
+#include <optional>
 #include <vector>
 
 #include "core/base/distribution.h"
@@ -16,6 +16,34 @@ enum class LightPick {
   bvh,    // by the hierarchy; by power where there are less than LightTable::many lights
   power,  // as for emission
   uniform
+};
+
+// Where a light stands in a list, by its address: asked at every vertex of light subpaths, for
+// which std::unordered_map's division and its walk through memory take too long.
+class LightIndex {
+ public:
+  LightIndex() = default;
+  // The first of equal ones counts.
+  explicit LightIndex(const std::vector<const Light*>& lights);
+  std::optional<size_t> find(const Light* light) const {
+    for (size_t slot = first_slot(light); slots_[slot].light; slot = (slot + 1) & mask_) {
+      if (slots_[slot].light == light) return slots_[slot].index;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Slot {
+    const Light* light = nullptr;  // null: free
+    size_t index = 0;
+  };
+  size_t first_slot(const Light* light) const {
+    // Fibonacci hashing (Knuth, The Art of Computer Programming 3, section 6.4).
+    const auto address = static_cast<uint64_t>(reinterpret_cast<uintptr_t>(light));
+    return static_cast<size_t>(address * 0x9e3779b97f4a7c15u >> 32) & mask_;
+  }
+  size_t mask_ = 0;
+  std::vector<Slot> slots_{Slot{}};  // at least half of them free
 };
 
 class LightTable {
@@ -65,7 +93,7 @@ class LightTable {
   std::vector<const Light*> lights_, infinite_;
   std::vector<float> probability_;
   std::vector<double> cdf_;
-  std::unordered_map<const Light*, size_t> index_;
+  LightIndex index_;
 
   LightTree tree_;
   std::vector<size_t> inside_, outside_;  // lights of the hierarchy and the others
