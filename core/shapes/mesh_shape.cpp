@@ -250,10 +250,12 @@ void MeshShape::refine(const dvec3& origin, const dvec3& direction, Hit& hit) co
   const dvec3 n = glm::cross(e1, e2);
   const double t = glm::dot(p0 - origin, n) / glm::dot(direction, n);
   if (!(t > 0.0) || !std::isfinite(t)) return;  // in its plane: nothing better is known
-  const dvec3 p = origin + t * direction, from = p - p0;
+  const dvec3 from = origin + t * direction - p0;
   const double inverse = 1.0 / glm::dot(n, n), b1 = glm::dot(glm::cross(from, e2), n) * inverse,
                b2 = glm::dot(glm::cross(e1, from), n) * inverse;
-  hit.position = vec3(p);
+  // From the corners, not from the ray: a plane through the origin has no error for rays to start
+  // beyond, so that its points must lie in it.
+  hit.position = vec3(p0 + b1 * e1 + b2 * e2);
   hit.distance = static_cast<float>(t);
   hit.where = vec2(b1, b2);
   const glm::uvec3& i = mesh_.triangles[hit.element];

@@ -54,6 +54,7 @@ void expect_exact(const std::string& shape, bool flat_coordinates = true) {
     const double bound = 0x1p-22 * t;
     EXPECT_LT(glm::distance(dvec3(hit.position), dvec3(ray.origin) + t * d), bound);
     EXPECT_NEAR(static_cast<double>(hit.distance), t, bound);
+    EXPECT_EQ(hit.position.z, 0.f);
     if (!flat_coordinates) continue;
     EXPECT_NEAR(static_cast<double>(hit.uv.x), t * d.x, bound);
     EXPECT_NEAR(static_cast<double>(hit.uv.y), t * d.y, bound);
