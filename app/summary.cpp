@@ -121,7 +121,7 @@ std::string summary_text(const json& s) {
   std::string text = times(s);
   for (const json& layer : s["layers"]) text += "\n" + layer_text(layer);
   const json& rays = s["rays"];
-  text += fmt::format("\nrays: {}nearest, {}shadow, {}rays/s on {} threads",
+  text += fmt::format("\nnearest hits: {}rays, shadows: {}rays, {}rays/s on {} threads",
                       format_count(rays["nearest"].get<double>()),
                       format_count(rays["shadow"].get<double>()),
                       format_count(rays["per_second"].get<double>()), s["threads"].get<int>());
