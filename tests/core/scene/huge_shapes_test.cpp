@@ -10,7 +10,7 @@
 namespace pssmlt::test {
 namespace {
 
-constexpr double half = 1e7, height = 1.5;  // of the plane, and of the eye over it [m]
+constexpr double height = 1.5;  // of the eye over the plane [m]
 
 const std::string head = R"(
 Camera "perspective"
