@@ -58,7 +58,8 @@ class Bdpt final : public Integrator {
                       "section 9.2)") == "power"
                  ? Mis::Heuristic::power
                  : Mis::Heuristic::balance),
-        pick_(read_light_pick(p)),
+        near_(read_light_pick(p)),
+        far_(near_ == LightPick::bvh ? LightPick::power : near_),
         unweighted_(p.flag("unweighted", false,
                            "every strategy counts in full, to look at "
                            "strategies one by one; the picture is not their sum")),
@@ -83,7 +84,7 @@ class Bdpt final : public Integrator {
 
   void prepare(const Scene& scene) override {
     scene_ = &scene;
-    tracer_ = std::make_unique<SubpathTracer>(scene, limits_, mis_, pick_);
+    tracer_ = std::make_unique<SubpathTracer>(scene, limits_, mis_, far_);
     // Without a surface that can be joined, light subpaths only serve to show the lamps themselves,
     // which the camera subpath does better.
     light_side_ = scene.features().connectible && !scene.lights().empty();
@@ -101,6 +102,7 @@ class Bdpt final : public Integrator {
   void sample(PrimarySample& u, Splats& out, Workspace& workspace) const override;
 
  private:
+  LightPick pick_for(const PathVertex& v) const { return v.mirrored ? near_ : far_; }
   bool wants(Strategy st) const {
     return (only_s_ < 0 || only_s_ == st.s) && (only_t_ < 0 || only_t_ == st.t) &&
            limits_.in_range(st.bounces());
@@ -120,14 +122,17 @@ class Bdpt final : public Integrator {
   void draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, Splats& out) const;
   void draw_light_for_sensor(const Subpath& camera, PrimarySample& u, Splats& out) const;
   void lens_from_light(const Subpath& light, PrimarySample& u, Splats& out) const;
-  void lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats& out) const;
+  void lens_from(const Subpath& light, int k, PrimarySample& u, Splats& out) const;
+  MisPartial partial_at_lens(const Subpath& light, int k) const;
   void join_all(const Subpath& camera, const Subpath& light, PrimarySample& u, Splats& out) const;
   void join(const PathVertex& x, const PathVertex& y, Strategy st, float factor, PrimarySample& u,
             Splats& out) const;
 
   PathLimits limits_;
   Mis mis_;
-  LightPick pick_;
+  // How lights are drawn for vertices that the camera sees, if by way of mirrors, and for those
+  // behind them. There the hierarchy costs as much and gains less: light subpaths reach them.
+  LightPick near_, far_;
   bool unweighted_;
   int only_s_, only_t_;
   const Scene* scene_ = nullptr;
@@ -155,7 +160,7 @@ void Bdpt::sample(PrimarySample& u, Splats& out, Workspace& workspace) const {
   if (fresh) tracer_->from_light(u, light);
   if (!light.started) return;
   lens_from_light(light, u, out);
-  for (int k = 1; k <= light.size(); ++k) lens_from(light[k], {k + 1, 1}, u, out);
+  for (int k = 1; k <= light.size(); ++k) lens_from(light, k, u, out);
   join_all(camera, light, u, out);
 }
 
@@ -207,7 +212,7 @@ void Bdpt::hit(const Subpath& camera, int bounces, const Light& light, const End
   if (bounces == 0 && sensor_) {
     // Against the same light drawn for the camera's point; what media absorb counts in neither.
     const LightReceiver sensor = sensor_receiver(camera.start);
-    const double drawn = as_double(scene_->lights().probability(pick_, sensor, &light)) *
+    const double drawn = as_double(scene_->lights().probability(near_, sensor, &light)) *
                          as_double(light.pdf_toward(sensor.position, at));
     const double ratio = mis_.f(drawn / as_double(camera.start.pdf_direction));
     return out.camera(weight(0.0, ratio) * throughput * value, st.tag());
@@ -219,8 +224,9 @@ void Bdpt::hit(const Subpath& camera, int bounces, const Light& light, const End
   } else if (mis.connect > 0.0) {
     const Surface& last = camera[bounces].surface;
     const vec3& from = last.hit.position;
-    const LightReceiver receiver = light_receiver(*scene_, pick_, last);
-    connect = as_double(scene_->lights().probability(pick_, receiver, &light)) *
+    const LightPick pick = pick_for(camera[bounces]);
+    const LightReceiver receiver = light_receiver(*scene_, pick, last);
+    connect = as_double(scene_->lights().probability(pick, receiver, &light)) *
               as_double(light.pdf_toward(from, at));
     if (v) {
       connect *= as_double(std::abs(glm::dot(v->surface.hit.ng, direction))) /
@@ -243,7 +249,7 @@ void Bdpt::draw_lights(const Subpath& camera, PrimarySample& u, Splats& out) con
 void Bdpt::draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, Splats& out) const {
   if (!wants(st)) return;
   const Surface& surface = x.surface;
-  const LightDraw draw(*scene_, pick_, surface, light_numbers(u, st.t - 1));
+  const LightDraw draw(*scene_, pick_for(x), surface, light_numbers(u, st.t - 1));
   if (!draw.succeeded() || !limits_.paths.ends(draw.letter(), x.joined_state)) return;
   const Toward& t = draw.toward();
   const auto scattering = surface.scattering(t.wi, Transport::radiance);
@@ -265,7 +271,7 @@ void Bdpt::draw_light_from(const PathVertex& x, Strategy st, PrimarySample& u, S
 void Bdpt::draw_light_for_sensor(const Subpath& camera, PrimarySample& u, Splats& out) const {
   const Strategy st{1, 1};
   if (!camera.started || !wants(st)) return;
-  const SensorDraw draw(*scene_, pick_, camera.start, camera.time, light_numbers(u, 0));
+  const SensorDraw draw(*scene_, near_, camera.start, camera.time, light_numbers(u, 0));
   if (!draw.succeeded()) return;
   if (!limits_.paths.ends(draw.letter(), limits_.paths.from_camera())) return;
   const Passage way = draw.way();
@@ -297,7 +303,9 @@ void Bdpt::lens_from_light(const Subpath& light, PrimarySample& u, Splats& out) 
 }
 
 // t = 1: a light subpath's vertex as the lens sees it.
-void Bdpt::lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats& out) const {
+void Bdpt::lens_from(const Subpath& light, int k, PrimarySample& u, Splats& out) const {
+  const PathVertex& y = light[k];
+  const Strategy st{k + 1, 1};
   if (!y.connectible || !wants(st)) return;
   const PathExpression& paths = limits_.paths;
   if (!paths.joins(y.joined_state, paths.from_camera())) return;
@@ -312,9 +320,22 @@ void Bdpt::lens_from(const PathVertex& y, Strategy st, PrimarySample& u, Splats&
   if (!(way.visibility > 0.f)) return;
   const double emit =
       emitted_over_drawn(*lens, surface.arrival(lens->wi, way.transmittance), lens->pdf_toward);
-  const double light_side = mis_.join(y.mis, emit, as_double(scattering.pdf_reverse));
+  const double light_side =
+      mis_.join(partial_at_lens(light, k), emit, as_double(scattering.pdf_reverse));
   out.light(lens->raster, weight(light_side, 0.0) * way.light() * colour(y.dispersed, u) * value,
             st.tag());
+}
+
+// The light's first vertex, seen from the lens, is one for which a camera subpath draws lights by
+// near_; everywhere else the vertex beside the light has a joined one between it and the lens.
+MisPartial Bdpt::partial_at_lens(const Subpath& light, int k) const {
+  MisPartial partial = light[k].mis;
+  const LightTable& lights = scene_->lights();
+  if (k > 1 || near_ == far_ || !lights.by_place(near_)) return partial;
+  const LightReceiver at = light_receiver(*scene_, near_, light[k].surface);
+  const double far = as_double(lights.probability(far_, at, light.light));
+  partial.connect *= mis_.f(as_double(lights.probability(near_, at, light.light)) / far);
+  return partial;
 }
 
 // s, t >= 2. Every pair of vertices up to the bound; past it each vertex of the camera subpath is

@@ -130,6 +130,7 @@ bool SubpathTracer::advance(PrimarySample& u, const Side& side, int k, Walk& w,
     v.mis = first_mis(side, path, v, w.transmittance);
   }
   v.connectible = false;
+  v.mirrored = w.mirrored;
   v.dispersed = path.dispersed_before(k);
   return true;
 }
@@ -148,6 +149,7 @@ bool SubpathTracer::emerge(int k, Walk& w, Subpath& path) const {
   v.state = w.state;
   v.mis = mis_.beneath(from.mis, static_cast<double>(w.pdf), static_cast<double>(w.pdf_reverse));
   v.connectible = false;
+  v.mirrored = w.mirrored;
   v.dispersed = path.dispersed_before(k);
   return true;
 }
@@ -174,6 +176,7 @@ bool SubpathTracer::scatter(PrimarySample& u, const Side& side, const Surface& s
   w.pdf = s->pdf;
   w.pdf_reverse = s->pdf_reverse;
   w.delta = s->delta;
+  w.mirrored &= s->delta && !s->beneath;
   w.beneath = s->beneath;
   if (s->beneath) w.numbers = n;
   w.ray = surface.spawn(s->wi);

@@ -20,6 +20,8 @@ struct PathVertex {
   MisPartial mis;
   PathExpression::State state = 0;  // of the path up to here, this vertex's own letter excluded
   bool connectible = false;         // has been shaded and can be joined
+  // All vertices before it scattered like mirrors (delta events), so that no strategy joins them.
+  bool mirrored = true;
   // The path has a wavelength, from this vertex or an earlier one; the throughput does not have its
   // colour.
   bool dispersed = false;
@@ -96,9 +98,9 @@ class Subpath {
 // densities: weights that ignore it are still a partition of unity.
 class SubpathTracer {
  public:
-  // pick: how lights are drawn by the strategies that the weights know of.
+  // pick: how lights are drawn by the strategies that the weights of light subpaths know of.
   SubpathTracer(const Scene& scene, const PathLimits& limits, Mis mis,
-                LightPick pick = LightPick::bvh);
+                LightPick pick = LightPick::power);
   // Fills `path` from the camera's stream; reads the raster pair.
   void from_camera(PrimarySample& u, Subpath& path) const;
   // Fills `path` from the light's stream. Needs at least one light.
@@ -126,6 +128,7 @@ class SubpathTracer {
     float eta_squared = 1.f;  // product of squared index ratios
     float pdf = 0.f, pdf_reverse = 0.f;
     bool delta = false;
+    bool mirrored = true;  // PathVertex::mirrored
     PathExpression::State state = 0;
     // Not null: no edge, but a way beneath the surface, which goes by these numbers.
     const DiffusionProfile* beneath = nullptr;

@@ -4,9 +4,9 @@
 // Tree Splitting (cones of normals, orientation in the cost of a split); Pharr, Jakob, Humphreys
 // 2023, Physically Based Rendering, section 12.6.3 (one number down the tree). Every node has a
 // box, a cone of normals and an intensity; a child is chosen in proportion to a guess of the
-// irradiance that its lights make at the point, nothing being in the way. Nodes have up to four
+// irradiance that its lights make at the point, nothing being in the way. Nodes have up to eight
 // children, guessed at by the same instructions (I. Wald, C. Benthin, S. Boulos 2008, Getting Rid
-// of Packets: four-wide trees).
+// of Packets, did so with trees of boxes).
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ class LightTree {
 
   struct Choice {
     uint32_t light = 0;        // index into the constructor's argument
-    double probability = 0.0;  // the same as probability() says
+    double probability = 0.0;  // as probability() says, up to the rounding of doubles
   };
   // u in [0,1); the only number that is drawn.
   Choice choose(const LightReceiver& at, double u) const;
@@ -45,37 +45,48 @@ class LightTree {
 
   bool empty() const { return fans_.empty(); }
   size_t bytes() const {
-    return fans_.capacity() * sizeof(Fan) + trails_.capacity() * sizeof(uint64_t);
+    return fans_.capacity() * sizeof(Fan) + lights_.capacity() * sizeof(Place);
   }
 
  private:
-  static constexpr uint32_t width = 4;
-  // Siblings. What is not there has no intensity.
-  struct alignas(64) Fan {
+  static constexpr uint32_t width = 8;
+  // Four siblings. What is not there has no intensity.
+  struct Half {
     std::array<Four, 3> center{};  // of the bounding spheres, by axis [m]
     Four radius2{};                // their squared radii [m^2]
     std::array<Four, 3> axis{};    // of the cones of normals
     Four cos_cone{}, sin_cone{};   // of their half angles
     Four cos_spread{};
-    Four intensity{};                    // as a part of that of all lights [1]
-    Four two_sided{};                    // 0 or 1
+    Four intensity{};  // as a part of that of all lights [1]
+    Four two_sided{};  // 0 or 1
+  };
+  struct Place {
+    uint32_t fan = 0, lane = 0;
+  };
+  struct alignas(64) Fan {
+    std::array<Half, 2> half{};
     std::array<uint32_t, width> next{};  // inner node: the fan of its children; leaf: the light
     std::array<bool, width> leaf{};
     uint32_t count = 0;
+    Place at;  // of its parent; the root's: unused
   };
   friend class LightTreeBuilder;
   // Irradiance of each sibling for unit intensity of all lights together [1/m^2].
-  static Four importances(const Fan& fan, const LightReceiver& at);
-  // What siblings are chosen in proportion to; the sum is positive and finite.
+  static Four importances(const Half& half, const LightReceiver& at);
+  // What siblings are chosen in proportion to.
   struct Weights {
-    std::array<double, width> of{};
-    double sum = 0.0;
+    std::array<double, width> up_to{};  // sums of those up to each
+    double sum() const { return up_to.back(); }
+    double before(uint32_t i) const { return i == 0 ? 0.0 : up_to[i - 1]; }
+    double of(uint32_t i) const { return up_to[i] - before(i); }
+    // False unless the sum is positive and finite.
+    bool add(const std::array<Four, 2>& guess);
   };
+  // Their sum is positive and finite.
   static Weights weights(const Fan& fan, const LightReceiver& at);
 
-  std::vector<Fan> fans_;  // the root's children first
-  // For each light which way to go from the root, two bits a fan, lowest first.
-  std::vector<uint64_t> trails_;
+  std::vector<Fan> fans_;  // the root's first
+  std::vector<Place> lights_;
   double intensity_ = 0.0;  // of all lights [W/sr]
 };
 

@@ -1,5 +1,5 @@
 // How the hierarchy of lights is built: top down by halves, each split the cheapest of those
-// between bins along the three axes; then of two generations one is made.
+// between bins along the three axes; then several generations become one.
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -10,7 +10,7 @@ namespace pssmlt {
 namespace {
 
 constexpr size_t bins = 12;
-// Past this depth halves have equal numbers of lights, so that a trail's 64 bits are enough.
+// Past this depth halves have equal numbers of lights, so that recursion ends.
 constexpr int deepest_split = 24;
 
 double as_angle(float cosine) {
@@ -64,12 +64,12 @@ class LightTreeBuilder {
       centers_.push_back(0.5f * b.box.min + 0.5f * b.box.max);
       tree_.intensity_ += static_cast<double>(b.intensity);
     }
-    tree_.trails_.resize(lights.size());
+    tree_.lights_.resize(lights.size());
     nodes_.reserve(2 * lights.size() - 1);
     nodes_.emplace_back();
     build(0, 0, lights.size(), 0);
     tree_.fans_.emplace_back();
-    gather(0, 0, 0, 0);
+    gather(0, 0);
     tree_.fans_.shrink_to_fit();
   }
 
@@ -81,14 +81,15 @@ class LightTreeBuilder {
   };
   struct Node {
     LightBounds bounds;
-    uint32_t first = 0;  // of two children; leaf: the light
+    uint32_t first = 0;   // of two children; leaf: the light
+    uint32_t lights = 0;  // in it
     bool leaf = false;
   };
   void build(uint32_t node, size_t begin, size_t end, int depth);
-  // Makes a fan of a node's children and grandchildren, then of theirs.
-  void gather(uint32_t node, uint32_t fan, int depth, uint64_t trail);
+  // Makes a fan of a node's descendants, then of theirs.
+  void gather(uint32_t node, uint32_t fan);
   std::vector<uint32_t> descendants(uint32_t node) const;
-  void fill(LightTree::Fan& fan, uint32_t lane, const LightBounds& b) const;
+  void fill(LightTree::Half& half, uint32_t lane, const LightBounds& b) const;
   // Where the second child's lights begin; both have some.
   size_t divide(size_t begin, size_t end, int depth);
   Split best_split(const Bounds& centers, size_t begin, size_t end) const;
@@ -108,25 +109,26 @@ class LightTreeBuilder {
 
 LightTree::LightTree(const std::vector<LightBounds>& lights) { LightTreeBuilder(lights, *this); }
 
-void LightTreeBuilder::fill(LightTree::Fan& fan, uint32_t lane, const LightBounds& b) const {
+void LightTreeBuilder::fill(LightTree::Half& half, uint32_t lane, const LightBounds& b) const {
   const vec3 center = 0.5f * b.box.min + 0.5f * b.box.max;
   for (int k = 0; k < 3; ++k) {
-    fan.center[static_cast<size_t>(k)][lane] = center[k];
-    fan.axis[static_cast<size_t>(k)][lane] = b.normals.axis[k];
+    half.center[static_cast<size_t>(k)][lane] = center[k];
+    half.axis[static_cast<size_t>(k)][lane] = b.normals.axis[k];
   }
-  fan.radius2[lane] = static_cast<float>(0.25 * squared_diagonal(b.box));
-  fan.cos_cone[lane] = b.normals.cosine;
-  fan.sin_cone[lane] = safe_sqrt(1.f - sqr(b.normals.cosine));
-  fan.cos_spread[lane] = b.cos_spread;
-  fan.two_sided[lane] = b.two_sided ? 1.f : 0.f;
+  half.radius2[lane] = static_cast<float>(0.25 * squared_diagonal(b.box));
+  half.cos_cone[lane] = b.normals.cosine;
+  half.sin_cone[lane] = safe_sqrt(1.f - sqr(b.normals.cosine));
+  half.cos_spread[lane] = b.cos_spread;
+  half.two_sided[lane] = b.two_sided ? 1.f : 0.f;
   // Relative: sums stay in range whatever the lights' unit.
-  fan.intensity[lane] = static_cast<float>(static_cast<double>(b.intensity) / tree_.intensity_);
+  half.intensity[lane] = static_cast<float>(static_cast<double>(b.intensity) / tree_.intensity_);
 }
 
 void LightTreeBuilder::build(uint32_t node, size_t begin, size_t end, int depth) {
   LightBounds all = nothing();
   for (size_t i = begin; i < end; ++i) add(all, lights_[order_[i]]);
   nodes_[node].bounds = all;
+  nodes_[node].lights = static_cast<uint32_t>(end - begin);
   nodes_[node].leaf = end - begin == 1;
   if (nodes_[node].leaf) {
     nodes_[node].first = order_[begin];
@@ -140,31 +142,38 @@ void LightTreeBuilder::build(uint32_t node, size_t begin, size_t end, int depth)
   build(first + 1, middle, end, depth + 1);
 }
 
-// Two generations of one node. A child that is a leaf has none to take its place.
+// What takes a node's place in a fan. The brightest are divided, since they are chosen most often;
+// first those with more lights than a fan has room for.
 std::vector<uint32_t> LightTreeBuilder::descendants(uint32_t node) const {
-  std::vector<uint32_t> found;
-  for (uint32_t child = nodes_[node].first; child < nodes_[node].first + 2; ++child) {
-    const Node& n = nodes_[child];
-    found.push_back(n.leaf ? child : n.first);
-    if (!n.leaf) found.push_back(n.first + 1);
+  std::vector<uint32_t> found = {node};
+  const auto less_wanted = [&](uint32_t i, uint32_t k) {
+    const Node &a = nodes_[i], &b = nodes_[k];
+    if (a.leaf != b.leaf) return a.leaf;
+    const bool large_a = a.lights > LightTree::width, large_b = b.lights > LightTree::width;
+    return large_a != large_b ? large_b : a.bounds.intensity < b.bounds.intensity;
+  };
+  while (found.size() < LightTree::width) {
+    const auto most = std::max_element(found.begin(), found.end(), less_wanted);
+    if (nodes_[*most].leaf) break;
+    *most = nodes_[*most].first;
+    found.push_back(*most + 1);
   }
   return found;
 }
 
-void LightTreeBuilder::gather(uint32_t node, uint32_t fan, int depth, uint64_t trail) {
+void LightTreeBuilder::gather(uint32_t node, uint32_t fan) {
   const std::vector<uint32_t> nodes = descendants(node);
   const auto count = static_cast<uint32_t>(nodes.size());
   tree_.fans_[fan].count = count;
   for (uint32_t lane = 0; lane < count; ++lane) {
     const Node& n = nodes_[nodes[lane]];
-    const uint64_t way = trail | uint64_t{lane} << (2 * depth);
     const uint32_t next = n.leaf ? n.first : static_cast<uint32_t>(tree_.fans_.size());
-    if (!n.leaf) tree_.fans_.emplace_back();
-    fill(tree_.fans_[fan], lane, n.bounds);
+    if (!n.leaf) tree_.fans_.emplace_back().at = {fan, lane};
+    fill(tree_.fans_[fan].half[lane / 4], lane % 4, n.bounds);
     tree_.fans_[fan].leaf[lane] = n.leaf;
     tree_.fans_[fan].next[lane] = next;
-    if (n.leaf) tree_.trails_[n.first] = way;
-    if (!n.leaf) gather(nodes[lane], next, depth + 1, way);
+    if (n.leaf) tree_.lights_[n.first] = {fan, lane};
+    if (!n.leaf) gather(nodes[lane], next);
   }
 }
 

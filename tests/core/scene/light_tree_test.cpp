@@ -96,7 +96,7 @@ TEST(LightTree, ChoicesFollowTheProbabilities) {
     }
     for (int i = 0; i < samples; ++i) {
       const auto choice = tree.choose(at, random.next_double());
-      EXPECT_EQ(choice.probability, tree.probability(at, choice.light));
+      EXPECT_NEAR(choice.probability / tree.probability(at, choice.light), 1.0, 1e-14);
       ++counts[bin[choice.light]];
     }
     EXPECT_GE(test::chi_square_p(counts, expected), test::false_alarm);
@@ -184,7 +184,7 @@ TEST(LightTree, BuildsWhatCannotBeDivided) {
 TEST(LightTree, HundredThousandLightsAreCheap) {
   const auto lights = random_lights(100'000, 10.f, 14);
   const LightTree tree(lights);
-  EXPECT_LE(tree.bytes(), lights.size() * 140);
+  EXPECT_LE(tree.bytes(), lights.size() * 130);
   for (const LightReceiver& at : random_receivers(3, 10.f, 15)) {
     EXPECT_NEAR(sum_of(tree, lights.size(), at), 1.0, 1e-9);
   }
