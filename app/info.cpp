@@ -68,6 +68,7 @@ int run_info(const Arguments& arguments) {
   const BuiltScene scene = build_scene(description, options);
   for (const std::string& line : log) print("note: " + line);
   for (const std::string& line : scene.log) print("note: " + line);
+  for (const std::string& line : scene.warnings) print("warning: " + line);
   const SceneFeatures& f = scene.scene->features();
   const RasterFrame& r = scene.scene->frame();
   print(fmt::format("picture: {} x {} pixels, window {},{} to {},{}", r.resolution.x,

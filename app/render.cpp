@@ -64,6 +64,7 @@ BuiltScene load(RenderOptions& o) {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   for (const std::string& line : log) log_info(line);
   for (const std::string& line : scene.log) log_info(line);
+  for (const std::string& line : scene.warnings) log_warning(line);
   for (const std::string& line : o.notes) log_info(line);
   log_debug(fmt::format("scene loaded in {:.3f} s", spent.count()));
   o.render.seed = o.seed.value_or(scene.seed.value_or(0));
@@ -199,6 +200,7 @@ int run_render(const Arguments& arguments) {
     view.attach(callbacks);
     result = render(scene, o.render, callbacks);
   }
+  result.warnings.insert(result.warnings.begin(), scene.warnings.begin(), scene.warnings.end());
   view.show_result(result);
   const int code = finish(o, scene, result);
   view.finish(code, result.complete ? o.outputs : std::vector<std::string>());

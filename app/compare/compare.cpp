@@ -131,6 +131,7 @@ void Compare::describe(int index, const LoadedScene& scene, Reference reference)
   s.width = reference.image.width;
   s.height = reference.image.height;
   s.load_seconds = scene.load_seconds;
+  s.warnings = scene.built.warnings;
   s.reference_image = fmt::format("scene{}-reference", index);
   for (const Technique& t : o_.techniques) {
     const BuiltScene built = scene.with(t, request.build);

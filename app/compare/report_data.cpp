@@ -106,8 +106,12 @@ void add_statistics(json& j, const std::vector<RunRecord>& runs) {
   j["non_finite"] = non_finite;
   j["peak_bytes"] = peak;  // of the whole process: techniques share it
   j["film_bytes"] = film;
-  j["warnings"] =
-      runs.empty() ? json::array() : runs.back().statistics.value("warnings", json::array());
+  j["warnings"] = json::array();
+  for (const RunRecord& r : runs) {
+    for (const json& w : r.statistics.value("warnings", json::array())) {
+      if (std::ranges::find(j["warnings"], w) == j["warnings"].end()) j["warnings"].push_back(w);
+    }
+  }
   j["acceptance"] = j["b"] = nullptr;
   if (runs.empty() || !runs.front().statistics.contains("layers")) return;
   for (const json& layer : runs.front().statistics["layers"]) {
@@ -146,6 +150,7 @@ json scene_json(const CompareOptions& o, const SceneReport& s) {
             {"width", s.width},
             {"height", s.height},
             {"load_seconds", s.load_seconds},
+            {"warnings", s.warnings},
             {"end_seconds", to_json(s.result.end)},
             {"reference", reference_json(s)},
             {"techniques", json::array()}};

@@ -16,6 +16,7 @@ struct SceneReport {
   std::string name, file, hash;
   int width = 0, height = 0;
   double load_seconds = 0.0;
+  std::vector<std::string> warnings;       // of the scene
   Reference reference;                     // without its pictures
   std::string reference_image;             // id in the report
   std::vector<nlohmann::json> parameters;  // by technique: {"integrator": {..}, "sampler": {..}}

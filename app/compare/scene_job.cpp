@@ -133,6 +133,7 @@ LoadedScene load_scene(const SceneRequest& request, const Technique& first) {
   loaded.content_hash = hash_content(loaded.description);
   for (const std::string& line : log) log_debug(line);
   for (const std::string& line : loaded.built.log) log_debug(line);
+  for (const std::string& line : loaded.built.warnings) log_warning(request.name + ": " + line);
   return loaded;
 }
 

@@ -21,7 +21,10 @@ BuiltScene build_job(const Job& job, std::vector<std::string>* log) {
   if (!job.pair.sampler.empty()) options.sampler = job.pair.sampler;
   options.set = job.set;
   BuiltScene built = build_scene(parse_string(job.scene, "stress-scene", "", log), options);
-  if (log != nullptr) log->insert(log->end(), built.log.begin(), built.log.end());
+  if (log != nullptr) {
+    log->insert(log->end(), built.log.begin(), built.log.end());
+    log->insert(log->end(), built.warnings.begin(), built.warnings.end());
+  }
   return built;
 }
 

@@ -175,10 +175,10 @@ void SceneBuilder::finish_features() {
   scene_->media_ = media_.take_media();
   scene_->interfaces_ = media_.take_interfaces();
   if (f.lights == 0 && !f.emitting_media)
-    built_.log.push_back("warning: the scene has no light: the picture is black");
-  if (scene_->primitives_.empty()) built_.log.push_back("warning: the scene has no shapes");
+    built_.warnings.push_back("the scene has no light: the picture is black");
+  if (scene_->primitives_.empty()) built_.warnings.push_back("the scene has no shapes");
   if (std::string line = contradicting_media(*scene_); !line.empty())
-    built_.log.push_back(std::move(line));
+    built_.warnings.push_back(std::move(line));
 }
 
 BuiltScene SceneBuilder::build() {
@@ -210,6 +210,7 @@ BuiltScene with_layers(const BuiltScene& built, const SceneDescription& descript
                        const BuildOptions& options) {
   BuiltScene other = built;
   other.log.clear();
+  other.warnings.clear();
   std::string settings;
   other.layers = build_layers(description, options, settings, other.log);
   set_hashes(other, description, options, settings);

@@ -74,7 +74,8 @@ struct BuiltScene {
   // the range of paths of each layer, what was set of anything but integrators and samplers.
   // Renders that agree in it may be averaged.
   uint64_t picture_hash = 0;
-  std::vector<std::string> log;  // lines for the user: translated names, what is left out
+  // Lines for the user: translated names, what is left out; and why the picture may be wrong.
+  std::vector<std::string> log, warnings;
 };
 
 // Throws Error with a location on anything wrong.

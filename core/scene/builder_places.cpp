@@ -69,7 +69,7 @@ void SceneBuilder::tell_touching_interfaces() {
                    glm::fract(.1414213562 + .5698402909980532 * static_cast<double>(i)));
       const Primitive* const other = too_close(*scene_->accel_, *p, p->shape->sample_area(u));
       if (other == nullptr) continue;
-      built_.log.push_back("warning: " + p->name + " and " + other->name +
+      built_.warnings.push_back(p->name + " and " + other->name +
                            " lie so close to each other that rays pass one of them only: light "
                            "that is refracted there is wrong; leave a gap, or one surface out");
       return;
@@ -109,8 +109,8 @@ void SceneBuilder::note_coarse_grid(const Bounds& box, const Transform& placed,
 void SceneBuilder::tell_coarse_grid() {
   if (coarse_shapes_ == 0) return;
   const std::string place = to_string(first_coarse_);
-  built_.log.push_back(fmt::format(
-      "warning: {}{} shapes have coordinates so far from the origin that rounding them to floats "
+  built_.warnings.push_back(fmt::format(
+      "{}{} shapes have coordinates so far from the origin that rounding them to floats "
       "moves vertices by up to {:.2g} of the shape's size: write them near the origin and place "
       "them by Translate",
       place.empty() ? "" : place + ": ", coarse_shapes_, std::min(coarsest_, 1.0)));

@@ -81,7 +81,7 @@ std::string contradicting_media(const Scene& scene) {
   for (int i = 0; i < walks; ++i) walk_from_camera(scene, random, tally);
   if (tally.contradictions * rare <= tally.edges) return "";
   return fmt::format(
-      "warning: media contradict one another: {} and {} disagree about what lies between them "
+      "media contradict one another: {} and {} disagree about what lies between them "
       "({} of {} rays met such a pair); techniques then show different pictures",
       tally.from ? tally.from->name : "the camera", tally.to->name, tally.contradictions,
       tally.edges);

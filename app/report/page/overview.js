@@ -39,6 +39,12 @@ function banners() {
       list.push(banner(
           'warn', `Dropped samples in “${scene.name}”:`,
           `${bad.join(', ')}. They were left out of the pictures.`));
+    for (const warning of scene.warnings ?? [])
+      list.push(banner('warn', `“${scene.name}”:`, warning));
+    for (const t of scene.techniques ?? []) {
+      for (const warning of t.warnings ?? [])
+        list.push(banner('warn', `${t.name} in “${scene.name}”:`, warning));
+    }
   }
   R.byId('banners').replaceChildren(...list);
 }

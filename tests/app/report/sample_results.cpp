@@ -133,6 +133,7 @@ json technique_result(const Settings& s, int technique, int scene) {
       {"acceptance", technique == 2 ? json{{"large", 0.21}, {"small", 0.58}} : json()},
       {"b", technique == 2 ? json{{"value", 0.431}, {"relative_error", 0.002}} : json()},
       {"non_finite", technique == 1 ? 3 : 0},
+      {"warnings", technique == 2 && scene == 0 ? json::array({"chains <hardly> move"}) : json()},
       {"images", images(s, technique, scene)}};
   for (int k = 0; k < s.snapshots; ++k) {
     result["curve"]["seconds"].push_back(time_of(k, s.snapshots));

@@ -23,7 +23,7 @@ Shape "sphere" "float radius" 20
 
 std::string warning_of(const std::string& text) {
   const BuiltScene built = build_text({.scene = text});
-  for (const std::string& line : built.log)
+  for (const std::string& line : built.warnings)
     if (line.find("media contradict") != std::string::npos) return line;
   return "";
 }

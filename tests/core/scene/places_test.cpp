@@ -10,8 +10,8 @@ bool warns(const std::string& world, const std::string& text) {
   const std::string scene =
       "LookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n" +
       world;
-  for (const std::string& line : build_text({.scene = scene}).log) {
-    if (line.starts_with("warning") && line.find(text) != std::string::npos) return true;
+  for (const std::string& line : build_text({.scene = scene}).warnings) {
+    if (line.find(text) != std::string::npos) return true;
   }
   return false;
 }

@@ -172,6 +172,8 @@ class Suite(PageTest):
         banners = self.text("#banners")
         self.assertIn("Partial results. Interrupted after 2 of 3 runs.", banners)
         self.assertIn("glass-caustics: bdpt and mlt disagree by 2.1 % in the upper right", banners)
+        self.assertIn("chains <hardly> move", banners)
+        self.assertIn("media contradict", banners)
         self.assertLess(self.find("#banners").location["y"], self.find("#curves").location["y"])
 
     def test_scenes_as_small_charts_lead_to_the_scene(self):
