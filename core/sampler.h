@@ -84,6 +84,14 @@ class Sampler {
   virtual double scale_relative_variance() const { return 0.0; }
   // True for Markov chains: samples are correlated, per-sample clamping is refused.
   virtual bool is_chain() const { return false; }
+  // For those who judge how well chains move: which planes are theirs, how many mutations they made
+  // in `rounds` whole rounds, and how often they visit a place for its luminance there, relative to
+  // others (position in the window [pixels]).
+  virtual bool is_chain_plane(int plane) const { return (void)plane, is_chain(); }
+  virtual double mutations(int64_t rounds) const {
+    return is_chain() ? samples(0) * double(rounds) : 0.0;
+  }
+  virtual double visits(const dvec2& place) const { return (void)place, 1.0; }
   // State beyond (seed, round): chains, b. load() follows start() with the same context.
   virtual void save(Archive& archive) const { (void)archive; }
   virtual void load(Archive& archive) { (void)archive; }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/metropolis/chain_target.h"
 #include "core/metropolis/walker.h"
 #include "core/sampler.h"
 #include "core/sampling/evaluator.h"
@@ -22,8 +23,15 @@ struct Chain {
 // What advance() asks of its host.
 class ChainHost {
  public:
-  ChainHost(SplatSink& sink, Worker& worker, Splats& current, int group)
-      : sink_(sink), worker_(worker), current_(current), group_(group) {}
+  // Credits go to `plane` of the sampler, those of large steps to the next.
+  ChainHost(const ChainTarget& target, SplatSink& sink, int plane, Worker& worker, Splats& current,
+            int group)
+      : target_(target),
+        sink_(sink),
+        plane_(plane),
+        worker_(worker),
+        current_(current),
+        group_(group) {}
   void restore(const Chain& chain) {
     current_.assign(chain.splats.data(), chain.splats.size());
     current_credit_ = chain.credit;
@@ -36,14 +44,16 @@ class ChainHost {
   double evaluate(PrimarySample& u) {
     const bool good = worker_.evaluator.evaluate(u, worker_.splats, worker_.workspace);
     proposed_credit_ = worker_.sample.credit();
-    return good ? luminance(worker_.splats) : 0.0;
+    return good ? target_.evaluate(worker_.splats, proposed_credit_) : 0.0;
   }
-  void credit_current(double weight) { sink_.add(0, current_, current_credit_, weight, group_); }
+  void credit_current(double weight) {
+    sink_.add(plane_, current_, current_credit_, weight, group_);
+  }
   void credit_proposed(double weight) {
-    sink_.add(0, worker_.splats, proposed_credit_, weight, group_);
+    sink_.add(plane_, worker_.splats, proposed_credit_, weight, group_);
   }
   void credit_large(double weight) {
-    sink_.add(1, worker_.splats, proposed_credit_, weight, group_);
+    sink_.add(plane_ + 1, worker_.splats, proposed_credit_, weight, group_);
   }
   void accept() {
     std::swap(current_, worker_.splats);
@@ -51,7 +61,9 @@ class ChainHost {
   }
 
  private:
+  const ChainTarget& target_;
   SplatSink& sink_;
+  int plane_;
   Worker& worker_;
   Splats& current_;
   PixelCredit current_credit_, proposed_credit_;

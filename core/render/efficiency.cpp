@@ -25,6 +25,7 @@ BlockLight block_light(const Film& film, const LayerScales& scales, int layer, i
   BlockLight result;
   for (size_t g = 0; g < light.size(); ++g) {
     for (int p = 0; p < scales.planes; ++p) {
+      if (!scales.sampler->is_chain_plane(p)) continue;
       light[g] += film.block_sum(layer, p, static_cast<int>(g), block) *
                   scales.group[static_cast<size_t>(p)][g];
     }
@@ -57,23 +58,30 @@ std::string to_string(const PixelRegion& r) {
 }
 
 std::optional<ChainEfficiency> chain_efficiency(const Film& film, const LayerScales& scales,
-                                                int layer, double mutations) {
+                                                int layer, int64_t rounds) {
+  const double mutations = scales.sampler->mutations(rounds);
   const auto missing = [](double scale) { return scale <= 0.0; };
   if (!scales.chain || !(mutations > 0.0)) return std::nullopt;
   if (std::any_of(scales.group[0].begin(), scales.group[0].end(), missing)) return std::nullopt;
   std::vector<BlockLight> blocks;
+  std::vector<double> visits;
   double all = 0.0;
   for (int b = 0; b < film.blocks().count(); ++b) {
+    const PixelRegion r = region_of(film, b);
     blocks.push_back(block_light(film, scales, layer, b));
-    all += blocks.back().mean;
+    visits.push_back(blocks.back().mean *
+                     scales.sampler->visits(0.5 * dvec2(r.x0 + r.x1 + 1, r.y0 + r.y1 + 1)));
+    all += visits.back();
   }
   std::vector<RegionEfficiency> regions;
+  double light = 0.0;
+  for (const BlockLight& b : blocks) light += b.mean;
   for (size_t b = 0; b < blocks.size(); ++b) {
-    const double q = blocks[b].mean / all;
+    const double q = visits[b] / all;
     if (!(q > 0.0 && q < 1.0 && blocks[b].variance_of_mean > 0.0)) continue;
     const double relative = blocks[b].variance_of_mean / (blocks[b].mean * blocks[b].mean);
     const double effective = (1.0 - q) / (q * mutations * relative);
-    regions.push_back({region_of(film, static_cast<int>(b)), q, effective});
+    regions.push_back({region_of(film, static_cast<int>(b)), blocks[b].mean / light, effective});
   }
   if (regions.size() < least_regions) return std::nullopt;
   const auto less = [](const auto& a, const auto& b) { return a.effective < b.effective; };

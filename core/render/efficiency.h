@@ -41,8 +41,9 @@ struct ChainEfficiency {
 // upper bound, so that the figure flatters bidirectional integrators by the number of their splats.
 //
 // nullopt for layers without chains, before all groups have samples, and where fewer than four
-// blocks have light. `mutations`: of the layer.
+// blocks have light. `rounds`: of the layer. q counts light as often as the sampler's chains visit
+// it (Sampler::visits()).
 std::optional<ChainEfficiency> chain_efficiency(const Film& film, const LayerScales& scales,
-                                                int layer, double mutations);
+                                                int layer, int64_t rounds);
 
 }  // namespace pssmlt

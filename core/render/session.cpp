@@ -351,7 +351,7 @@ void Session::add_efficiency(const Developer& developer, RenderResult& result) c
   for (size_t l = 0; l < layers_.size(); ++l) {
     const int index = static_cast<int>(l);
     const Sampler& sampler = *layers_[l].layer->sampler;
-    const auto e = chain_efficiency(film_, developer.scales(index), index, layers_[l].samples);
+    const auto e = chain_efficiency(film_, developer.scales(index), index, layers_[l].rounds);
     result.efficiency.push_back(e);
     for (std::string& w : sampler.warnings()) result.warnings.push_back(std::move(w));
     if (!e || !e->collapsed()) continue;

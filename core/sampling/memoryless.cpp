@@ -116,6 +116,7 @@ void MemorylessSampler::run_pixel(const SampleId& id, int plane_of_light, SplatS
   if (!worker.evaluator.evaluate(worker.sample.sample(), worker.splats, worker.workspace)) return;
   if (worker.splats.empty()) return;
   const PixelCredit credit = worker.sample.credit();
+  reshape(worker.splats, credit);
   if (plane_of_light == 0) {
     sink.add(0, worker.splats, credit, 1.0, id.group());
   } else {

@@ -61,6 +61,11 @@ class MemorylessSampler : public Sampler {
   // The four numbers of a block (index as in NumberSource) of a sample; a pure function.
   virtual void fill(const SampleId& id, Stream stream, uint32_t index,
                     NumberBlock& block) const = 0;
+  // What becomes of a sample's splats before they are added; `camera`: where camera splats are
+  // credited. A pure function.
+  virtual void reshape(Splats& splats, const PixelCredit& camera) const {
+    (void)splats, (void)camera;
+  }
   // Key of all random numbers: the scene's seed and the render's.
   uint64_t seed() const { return seed_; }
 

@@ -58,6 +58,9 @@ class Splats {
   const std::vector<Splat>& all() const { return splats_; }
   bool empty() const { return splats_.empty(); }
   void assign(const Splat* first, size_t count) { splats_.assign(first, first + count); }
+  void scale(float factor) {
+    for (Splat& s : splats_) s.value *= factor;
+  }
   // Adds one splat as it is.
   void add(const Splat& splat) { splats_.push_back(splat); }
 
