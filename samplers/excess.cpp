@@ -9,7 +9,8 @@
 // bias of b (pssmlt).
 //
 // Good where few samples carry much light: caustics seen by a path tracer, light through a door.
-// Where no samples stand out it is "sobol" after a pilot. Its chains follow relative brightness, so
+// Where no samples stand out it is "sobol" after a pilot. Bad where small lamps are seen directly,
+// whose pixels a short pilot takes for outliers. Its chains follow relative brightness, so
 // that dark parts of the picture get their share. Blind to what no bootstrap sample finds, but only
 // for light above the limit: what is cut off must have been found by enough of them, else nothing
 // is cut off.
@@ -207,7 +208,7 @@ void Excess::start_chains(const SamplerContext& context) {
   if (!split()) return;
   const double a_sample = std::min(split_.chain_share / (1.0 - split_.chain_share), most_mutations);
   sweeps_ = static_cast<int>(std::ceil(group_count / (a_sample * below_.samples(0))));
-  const int candidates = settings_.chains.bootstrap_samples > 0 ? 0 : pilots_;
+  const int candidates = settings_.chains.bootstrap_samples > 0 ? 0 : std::max(pilots_ / 2, 8192);
   chains_.start(context, above_, {a_sample * sweeps_ * below_.samples(0), candidates});
   if (chains_.contributing() >= least_bootstrap) return;
   limit_.threshold = static_cast<double>(infinity);

@@ -14,11 +14,38 @@ struct RelativeNorms {
   double sum = 0.0, sum_squares = 0.0;
 };
 
+// Means over equal cells of the window.
+class MeanGrid {
+ public:
+  MeanGrid() = default;
+  // About so many samples of the pilot to a cell, but no cell smaller than a pixel. What is above
+  // `outlier` times the mean that `cap` has there is clamped to that.
+  MeanGrid(const RasterFrame& frame, const Pilot& pilot, double samples_a_cell,
+           const MeanGrid* cap = nullptr);
+  void smooth();        // by 1 2 1 in each direction
+  void take_medians();  // of each cell and its neighbours
+  double mean() const;
+  // Between cells' centres, and of the cell itself. Outside the window that of the nearest cell.
+  double between(const dvec2& raster) const;
+  double nearest(const dvec2& raster) const;
+
+ private:
+  dvec2 cell_position(const dvec2& raster) const;
+  ivec2 cell_at(const dvec2& raster) const;
+  size_t index(const ivec2& c) const {
+    return static_cast<size_t>(c.y) * static_cast<size_t>(cells_.x) + static_cast<size_t>(c.x);
+  }
+  RasterFrame frame_;
+  ivec2 cells_{1, 1};
+  std::vector<double> values_{0.0};  // [W/(m^2 sr)], rows from the window's first
+};
+
 class LocalMean {
  public:
   LocalMean() = default;
-  // Means over cells of some hundred samples, in which single bright samples are clamped; smoothed.
-  // All 1 if the pilot found nothing.
+  // The larger of two: a smooth one of cells of some hundred samples, in which single bright
+  // samples are clamped, and medians of neighbouring cells of few, which follow what is bright in
+  // all samples (a lamp) and not what is in some. All 1 if the pilot found nothing.
   LocalMean(const RasterFrame& frame, const Pilot& pilot);
   // sqrt(local mean^2 + relative_mse_epsilon * mean^2) [W/(m^2 sr)], as relMSE weighs errors there;
   // positive. `raster` [pixels], may lie outside the window.
@@ -27,16 +54,9 @@ class LocalMean {
   RelativeNorms norms(std::span<const PilotSplat> splats) const;
 
  private:
-  void fill(const Pilot& pilot, const LocalMean* cap);
-  void smooth();
-  void finish();
-  size_t cell(const ivec2& c) const {
-    return static_cast<size_t>(c.y) * static_cast<size_t>(cells_.x) + static_cast<size_t>(c.x);
-  }
-
   RasterFrame frame_;
-  ivec2 cells_{1, 1};
-  std::vector<double> values_{1.0};  // [W/(m^2 sr)], rows from the window's first
+  MeanGrid coarse_, fine_;
+  double floor2_ = 0.0;  // relative_mse_epsilon * mean^2; 0: nothing is known
 };
 
 }  // namespace pssmlt

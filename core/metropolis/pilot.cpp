@@ -10,7 +10,7 @@ namespace pssmlt {
 namespace {
 
 constexpr int unit_samples = 1024;
-constexpr double least_samples = 8192.0, most_samples = 100000.0;
+constexpr double least_samples = 8192.0, most_samples = 400000.0;
 constexpr int most_times = 32;
 constexpr size_t enough_finds = 256;
 
@@ -21,6 +21,9 @@ Pilot run_samples(const SamplerContext& context, uint64_t seed, int first, int c
     for (int i = unit * unit_samples; i < std::min(count, (unit + 1) * unit_samples); ++i) {
       CandidateSource source(seed, static_cast<uint32_t>(first + i));
       worker.sample.begin(source);
+      // Evenly over the picture.
+      const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+      worker.sample.set_pixel(static_cast<int>(share * context.raster_map.frame().pixels()));
       // A dropped sample counts as one without light.
       (void)worker.evaluator.evaluate(worker.sample.sample(), worker.splats, worker.workspace);
       found[static_cast<size_t>(unit)].add(worker.splats, worker.sample.credit(),
@@ -59,7 +62,7 @@ void Pilot::append(const Pilot& other) {
 Pilot run_pilot(const SamplerContext& context, uint64_t seed, int count) {
   if (count > 0) return run_samples(context, seed, 0, count);
   const double pixels = context.raster_map.frame().pixels();
-  const int first = static_cast<int>(std::clamp(2.0 * pixels, least_samples, most_samples));
+  const int first = static_cast<int>(std::clamp(4.0 * pixels, least_samples, most_samples));
   Pilot all = run_samples(context, seed, 0, first);
   int made = first;
   for (; all.finds() < enough_finds && made < most_times * first; made *= 2) {

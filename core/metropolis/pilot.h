@@ -37,8 +37,8 @@ class Pilot {
   size_t finds_ = 0;
 };
 
-// count = 0: two samples a pixel, within limits, and up to 32 times as many where only few find
-// light. A pure function of the seed.
+// The same number in every pixel, if there are enough. count = 0: four a pixel, within limits, and
+// up to 32 times as many where only few find light. A pure function of the seed.
 Pilot run_pilot(const SamplerContext& context, uint64_t seed, int count);
 
 }  // namespace pssmlt
