@@ -69,9 +69,10 @@ void SceneBuilder::tell_touching_interfaces() {
                    glm::fract(.1414213562 + .5698402909980532 * static_cast<double>(i)));
       const Primitive* const other = too_close(*scene_->accel_, *p, p->shape->sample_area(u));
       if (other == nullptr) continue;
-      built_.warnings.push_back(p->name + " and " + other->name +
-                           " lie so close to each other that rays pass one of them only: light "
-                           "that is refracted there is wrong; leave a gap, or one surface out");
+      built_.warnings.push_back(
+          p->name + " and " + other->name +
+          " lie so close to each other that rays pass one of them only: light "
+          "that is refracted there is wrong; leave a gap, or one surface out");
       return;
     }
   }
