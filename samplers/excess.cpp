@@ -12,8 +12,8 @@
 // Where no samples stand out it is "sobol" after a pilot. Bad where small lamps are seen directly,
 // whose pixels a short pilot takes for outliers. Its chains follow relative brightness, so
 // that dark parts of the picture get their share. Blind to what no bootstrap sample finds, but only
-// for light above the limit: what is cut off must have been found by enough of them, else nothing
-// is cut off.
+// for light above the limit: what is cut off must have been found by enough of the pilot, else
+// nothing is cut off.
 #include <fmt/format.h>
 
 #include <array>
@@ -86,7 +86,9 @@ Settings read_settings(Parameters& p) {
                         "default budget, per pixel: samples and mutations together");
   s.pilot_samples = p.integer("pilotsamples", 0, "samples",
                               "independent samples that give the local means and the limit; 0: "
-                              "by the image size, more where light is hard to find");
+                              "as "
+                              "many as bootstrapsamples, if those are given, else by the image "
+                              "size, more where light is hard to find");
   s.threshold = p.number("threshold", 0.f, "local means",
                          "samples brighter than this are split; 0: chosen by the pilot");
   s.share = p.number("chainshare", 0.f, "",
@@ -148,6 +150,12 @@ class Excess final : public Sampler {
   bool split() const { return std::isfinite(limit_.threshold); }
   std::vector<RelativeNorms> pilot(const SamplerContext& context);
   void choose(std::span<const RelativeNorms> norms);
+  uint64_t least_contributing() const;
+  // Of the chains' bootstrap.
+  int candidates() const {
+    const int given = settings_.chains.bootstrap_samples;
+    return given > 0 ? given : std::max(pilots_ / 2, 8192);
+  }
   void start_chains(const SamplerContext& context);
   void tell() const;
 
@@ -181,7 +189,9 @@ void Excess::start(const SamplerContext& context) {
 
 std::vector<RelativeNorms> Excess::pilot(const SamplerContext& context) {
   const uint64_t seed = mix_bits(mix_bits(context.seed + 0x70696C6F74u) + settings_.chains.seed);
-  const Pilot all = run_pilot(context, seed, settings_.pilot_samples);
+  const Pilot all = run_pilot(
+      context, seed,
+      settings_.pilot_samples > 0 ? settings_.pilot_samples : settings_.chains.bootstrap_samples);
   pilots_ = static_cast<int>(all.samples());
   finds_ = all.finds();
   limit_.mean = LocalMean(context.raster_map.frame(), all);
@@ -197,20 +207,27 @@ void Excess::choose(std::span<const RelativeNorms> norms) {
   const auto stickiness = static_cast<double>(settings_.stickiness);
   split_ = settings_.threshold > 0.f
                ? split_at(norms, static_cast<double>(settings_.threshold), stickiness)
-               : choose_split(norms, stickiness, least_above);
+               : choose_split(norms, stickiness, least_contributing());
   if (settings_.share > 0.f) split_.chain_share = static_cast<double>(settings_.share);
-  if (split_.chain_share >= least_share) limit_.threshold = split_.threshold;
+  const bool known = split_.contributing >= least_contributing();
+  if (known && split_.chain_share >= least_share) limit_.threshold = split_.threshold;
 }
 
-// What is cut off must have been found by enough of the chains' own candidates.
+// Pilot samples above the limit that promise `least_above` candidates of the chains' own.
+uint64_t Excess::least_contributing() const {
+  const double times = static_cast<double>(pilots_) / candidates();
+  return static_cast<uint64_t>(static_cast<double>(least_above) * std::max(1.0, times));
+}
+
 void Excess::start_chains(const SamplerContext& context) {
   sweeps_ = 1;
   if (!split()) return;
   const double a_sample = std::min(split_.chain_share / (1.0 - split_.chain_share), most_mutations);
   sweeps_ = static_cast<int>(std::ceil(group_count / (a_sample * below_.samples(0))));
-  const int candidates = settings_.chains.bootstrap_samples > 0 ? 0 : std::max(pilots_ / 2, 8192);
-  chains_.start(context, above_, {a_sample * sweeps_ * below_.samples(0), candidates});
-  if (chains_.contributing() >= least_bootstrap) return;
+  chains_.start(context, above_, {a_sample * sweeps_ * below_.samples(0), candidates()});
+  // Whether to split must not depend on what b is made of, lest b be biased; but without chains
+  // what is cut off would be lost.
+  if (!chains_.empty()) return;
   limit_.threshold = static_cast<double>(infinity);
   sweeps_ = 1;
 }

@@ -20,7 +20,8 @@ MeanGrid::MeanGrid(const RasterFrame& frame, const Pilot& pilot, double samples_
     : frame_(frame) {
   const dvec2 size(frame.crop_size());
   const double count = std::max(1.0, static_cast<double>(pilot.samples()));
-  const double edge = std::max(1.0, std::sqrt(size.x * size.y * samples_a_cell / count));
+  const double finds = std::max(1.0, static_cast<double>(pilot.finds()));
+  const double edge = std::max(1.0, std::sqrt(size.x * size.y * samples_a_cell / finds));
   cells_ = glm::max(ivec2(1), ivec2(size / edge));
   values_.assign(static_cast<size_t>(cells_.x) * static_cast<size_t>(cells_.y), 0.0);
   for (const PilotSplat& s : pilot.all()) {

@@ -18,8 +18,8 @@ struct RelativeNorms {
 class MeanGrid {
  public:
   MeanGrid() = default;
-  // About so many samples of the pilot to a cell, but no cell smaller than a pixel. What is above
-  // `outlier` times the mean that `cap` has there is clamped to that.
+  // About so many of the pilot's samples with light to a cell, but no cell smaller than a pixel.
+  // What is above `outlier` times the mean that `cap` has there is clamped to that.
   MeanGrid(const RasterFrame& frame, const Pilot& pilot, double samples_a_cell,
            const MeanGrid* cap = nullptr);
   void smooth();        // by 1 2 1 in each direction

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/metropolis/normalisation.h"
+#include "tests/support/reduced.h"
 #include "tests/support/statistics.h"
 #include "tests/support/toy.h"
 
@@ -67,6 +68,7 @@ Regions measure(ToyRender& render) {
 // the difference of the halves, which tells the error, is not too small: the logarithm of the ratio
 // of two variances from 200 values each has the variance 4 / 200 (false alarm 1e-7 each).
 void expect_right(const ParameterSet& more, int rounds) {
+  if (test::reduced()) GTEST_SKIP() << "statistics of many renders";
   std::array<double, 4> exact{};
   for (int p = 0; p < pixels; ++p) exact[region(p)] += outliers_pixel(p);
   const RasterMap map = test::box_map(width, height);
@@ -126,8 +128,8 @@ TEST(Excess, WithoutASplitItIsSobol) {
   }
 }
 
-// A pilot that finds enough for a limit, and candidates of which fewer than make b known are above
-// it (one of 1000, ten at a probability of 10^-7): what is cut off would be lost, so nothing is.
+// A pilot that finds enough for a limit, but too few for the number of candidates that are to start
+// the chains: what is cut off might be lost, so nothing is.
 TEST(Excess, CutsNothingOffThatTooFewFound) {
   const auto rare = [](PrimarySample& u, Splats& out) {
     (void)u.raster();

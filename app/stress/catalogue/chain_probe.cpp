@@ -189,7 +189,7 @@ std::array<double, blocks> render_seed(const std::string& sampler, const ChainTa
   };
   ToyRender render(sampler, parameters(t, sampler), function, map, static_cast<uint64_t>(seed));
   // Without a bootstrap its samples are made here.
-  const double least = render.sampler().is_chain() ? 0.0 : t.bootstrap;
+  const double least = render.sampler().mutations(1) > 0.0 ? 0.0 : t.bootstrap;
   for (double made = 0.0; made < std::max(t.mutations * width * height, least);) {
     made += render.sampler().samples(render.rounds());
     render.rounds(1);
