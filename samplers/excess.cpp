@@ -34,6 +34,8 @@ namespace {
 constexpr uint64_t least_above = 32;
 // Mutations a pixel and sweep: more would make rounds long for little.
 constexpr double most_mutations = 8.0;
+// Of a round: small pictures with few mutations are left without chains.
+constexpr double most_sweeps = 256.0;
 // Fewer are not worth their chains.
 constexpr double least_share = 1e-3;
 
@@ -84,11 +86,11 @@ Settings read_settings(Parameters& p) {
   Settings s;
   s.samples = p.integer("pixelsamples", 16, "samples",
                         "default budget, per pixel: samples and mutations together");
-  s.pilot_samples = p.integer("pilotsamples", 0, "samples",
-                              "independent samples that give the local means and the limit; 0: "
-                              "as "
-                              "many as bootstrapsamples, if those are given, else by the image "
-                              "size, more where light is hard to find");
+  s.pilot_samples =
+      p.integer("pilotsamples", 0, "samples",
+                "independent samples that give the local means and the limit; 0: as many "
+                "as bootstrapsamples, if given, else by the image size, and more where "
+                "light is hard to find");
   s.threshold = p.number("threshold", 0.f, "local means",
                          "samples brighter than this are split; 0: chosen by the pilot");
   s.share = p.number("chainshare", 0.f, "",
@@ -223,7 +225,12 @@ void Excess::start_chains(const SamplerContext& context) {
   sweeps_ = 1;
   if (!split()) return;
   const double a_sample = std::min(split_.chain_share / (1.0 - split_.chain_share), most_mutations);
-  sweeps_ = static_cast<int>(std::ceil(group_count / (a_sample * below_.samples(0))));
+  const double sweeps = std::ceil(group_count / (a_sample * below_.samples(0)));
+  if (sweeps > most_sweeps) {
+    limit_.threshold = static_cast<double>(infinity);
+    return;
+  }
+  sweeps_ = static_cast<int>(sweeps);
   chains_.start(context, above_, {a_sample * sweeps_ * below_.samples(0), candidates()});
   // Whether to split must not depend on what b is made of, lest b be biased; but without chains
   // what is cut off would be lost.

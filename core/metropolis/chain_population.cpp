@@ -30,8 +30,11 @@ PopulationSettings read_population(Parameters& p, int bootstrap_samples) {
   s.mix = read_step_mix(p);
   s.kernels = read_kernels(p);
   s.chains = p.integer("chains", 0, "", "number of chains, a multiple of 32; 0: by the image size");
-  s.bootstrap_samples = p.integer("bootstrapsamples", bootstrap_samples, "samples",
-                                  "independent samples that give b and the chains' seeds");
+  s.bootstrap_samples =
+      p.integer("bootstrapsamples", bootstrap_samples, "samples",
+                bootstrap_samples > 0 ? "independent samples that give b and the chains' seeds"
+                                      : "independent samples that give b and the chains' seeds; 0: "
+                                        "half as many as the pilot's");
   s.refine_b =
       p.choice("b", "refined", b_names,
                "normalisation: refined by every large step, or the bootstrap's") == "refined";
@@ -51,6 +54,7 @@ void ChainPopulation::start(const SamplerContext& context, const ChainTarget& ta
   if (size.candidates > 0) settings_.bootstrap_samples = size.candidates;
   target_ = &target;
   chains_.clear();
+  tallies_.clear();
   plan(context.raster_map.frame(), size.mutations);
   walk_.seed = mix_bits(context.seed + mix_bits(settings_.seed));
   bootstrap(context);

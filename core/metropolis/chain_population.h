@@ -25,6 +25,7 @@ struct PopulationSettings {
 // "chains", "bootstrapsamples" with this default (0 leaves the number to the sampler), "b",
 // "weights" and those of steps and kernels.
 PopulationSettings read_population(Parameters& parameters, int bootstrap_samples);
+
 // Sampler's functions of the same names do what is said there. The chains' credits go to the plane
 // `plane`, those of Kelemen-weighted large steps to the one after it.
 class ChainPopulation {
@@ -53,10 +54,7 @@ class ChainPopulation {
   // Of the chains' plane; the factor of Kelemen's large steps does not know b.
   double scale(int64_t rounds) const;
   double large_scale(int64_t rounds) const;
-  MeanTally normalisation() const;  // b with its error
   double scale_relative_variance() const;
-  uint64_t contributing() const { return contributing_; }  // candidates worth something
-  int bootstrap_samples() const { return settings_.bootstrap_samples; }
 
   void save(Archive& archive) const;
   void load(Archive& archive);
@@ -76,6 +74,7 @@ class ChainPopulation {
   int group(int chain) const;
   void start_chain(int chain, uint32_t candidate, Worker& worker);
   WalkTally total() const;
+  MeanTally normalisation() const;  // b with its error
 
   const char* name_;
   PopulationSettings settings_;
@@ -87,7 +86,7 @@ class ChainPopulation {
   int steps_ = 1;                   // mutations of each chain in a round
   std::vector<double> candidates_;  // target's values, until the chains have started
   MeanTally bootstrap_;
-  uint64_t contributing_ = 0;
+  uint64_t contributing_ = 0;  // candidates worth something
   std::vector<Chain> chains_;
   std::vector<WalkTally> tallies_;  // by unit
 };
