@@ -70,27 +70,35 @@ inline Blocks render_to_precision(Job job, int renders, int edge, const Precisio
   return blocks;
 }
 
-// What may be asked of the other side of a comparison if both sides together were to reach `goal`
-// and `reference`, and the one that is there has come out better.
-inline Precision left_over(const Precision& goal, const Precision& reference, const Blocks& there) {
-  const Precision reached = precision(there);
-  const auto rest = [](double a, double b, double c) {
-    return std::sqrt(std::max(a * a + b * b - c * c, a * a));
-  };
-  return {rest(goal.block, reference.block, reached.block),
-          rest(goal.whole, reference.whole, reached.whole)};
-}
-
 struct Demand {
   double false_alarm;  // of all comparisons of one call together
   double block_error;  // relative, of a single block, found with power 0.99
   double whole_error;  // relative, of the whole picture, found with power 0.99
 };
 
+constexpr double sure = 2.3263;  // normal quantile of 0.99: the power
+
+// Standard errors of a difference, as shares of the value, that leave the power demanded.
+inline Precision allowed(const Demand& demand, size_t comparisons, int renders) {
+  const double limit =
+      student_limit(demand.false_alarm / static_cast<double>(comparisons), renders - 1.0);
+  return {demand.block_error / (limit + sure), demand.whole_error / (limit + sure)};
+}
+
+// What the other side of a comparison with `there` must reach by at least `renders` renders. Two
+// per cent are left for relative errors that differ with the mean they are taken of.
+inline Precision left_over(const Demand& demand, const Blocks& there, int renders) {
+  const Precision both = allowed(demand, there.estimates.size(), std::min(renders, there.renders));
+  const Precision reached = precision(there);
+  const auto rest = [](double a, double c) {
+    return std::sqrt(std::max(0.9604 * a * a - c * c, a * a / 8.0));
+  };
+  return {rest(both.block, reached.block), rest(both.whole, reached.whole)};
+}
+
 // Power is that of a normal variable past the limit, with the measured errors for the true ones.
 inline void expect_agreement(const Blocks& a, const Blocks& b, const Demand& demand,
                              const std::string& what) {
-  constexpr double sure = 2.3263;  // normal quantile of 0.99
   ASSERT_EQ(a.estimates.size(), b.estimates.size());
   // The smaller number of degrees of freedom of the two sides alone is on the safe side.
   const double freedom = std::min(a.renders, b.renders) - 1;
