@@ -13,4 +13,11 @@ inline DefaultPlugins default_plugins() {
           .material = "diffuse"};
 }
 
+// Of the commands that render what a user asks for: the sampler chooses what it can.
+inline DefaultPlugins command_plugins() {
+  DefaultPlugins plugins = default_plugins();
+  plugins.sampler = "auto";
+  return plugins;
+}
+
 }  // namespace pssmlt

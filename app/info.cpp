@@ -64,7 +64,7 @@ int run_info(const Arguments& arguments) {
   std::vector<std::string> log;
   const SceneDescription description = read_scene(path, &log);
   BuildOptions options;
-  options.defaults = default_plugins();
+  options.defaults = command_plugins();
   const BuiltScene scene = build_scene(description, options);
   for (const std::string& line : log) print("note: " + line);
   for (const std::string& line : scene.log) print("note: " + line);

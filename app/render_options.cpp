@@ -91,7 +91,7 @@ std::vector<std::string> parse_auxiliary(const std::string& text) {
 }
 
 void understand_scene_options(RenderOptions& o, const RawOptions& raw) {
-  o.build.defaults = default_plugins();
+  o.build.defaults = command_plugins();
   if (!raw.integrator.empty()) o.build.integrator = raw.integrator;
   if (!raw.sampler.empty()) o.build.sampler = raw.sampler;
   if (!raw.size.empty()) {

@@ -30,6 +30,14 @@ class Integrator : public PluginNamed {
   // The filter and depth limits of the scene's parameters, as a path expression and bounce range.
   virtual const class PathLimits& limits() const = 0;
 
+  // Estimates of the same light that a sampler may choose from before it takes samples for the
+  // picture: sample() is that of the one chosen last, of the first before. Not thread safe.
+  virtual int alternatives() const { return 1; }
+  virtual void choose(int alternative) { (void)alternative; }
+  virtual std::string alternative_name(int alternative) const {
+    return (void)alternative, plugin_name();
+  }
+
   // Work units to run in parallel before round `round` (photon maps, caches): pass() is a pure
   // function of (round, unit, u), merge_passes() runs serially after all of them.
   virtual int passes(int64_t round) const { return (void)round, 0; }

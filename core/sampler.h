@@ -46,11 +46,12 @@ struct Worker {
 // Everything start() may use.
 struct SamplerContext {
   const Scene& scene;
-  const Integrator& integrator;
+  Integrator& integrator;  // to choose among its alternatives; else not to be changed
   const RasterMap& raster_map;
   uint64_t seed = 0;
   // Runs body(unit, worker) for unit in [0, count) in parallel, returns when all are done.
   std::function<void(int count, const std::function<void(int, Worker&)>&)> parallel;
+  bool clamped = false;  // what a sample adds is clamped by itself: no chains may spread it
 };
 
 class Sampler {
@@ -82,8 +83,13 @@ class Sampler {
   virtual bool pairs_groups() const { return false; }
   // Relative variance of a factor common to all groups (b), to be added to the picture's.
   virtual double scale_relative_variance() const { return 0.0; }
-  // True for Markov chains: samples are correlated, per-sample clamping is refused.
+  // True: where nobody named an integrator, one that offers all there are as alternatives is asked.
+  virtual bool chooses_integrator() const { return false; }
+  // True for Markov chains: samples are correlated; per-sample clamping and integrators whose
+  // estimate changes between rounds are refused.
   virtual bool is_chain() const { return false; }
+  // Errors of neighbouring pixels are correlated. Asked after start().
+  virtual bool correlates_pixels() const { return is_chain(); }
   // For those who judge how well chains move: which planes are theirs, how many mutations they made
   // in `rounds` whole rounds, and how often they visit a place for its luminance there, relative to
   // others (position in the window [pixels]).

@@ -78,7 +78,7 @@ void collect_techniques(const RawOptions& raw, CompareOptions& o) {
 }
 
 void collect_scenes(const RawOptions& raw, BuildOptions build, CompareOptions& o) {
-  build.defaults = default_plugins();
+  build.defaults = command_plugins();
   if (!raw.size.empty()) build.size = parse_size(raw.size);
   if (!raw.crop.empty()) build.crop = parse_crop(raw.crop);
   for (const std::string& file : raw.scenes) o.scenes.push_back(request_for(file, build));

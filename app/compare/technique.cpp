@@ -41,7 +41,19 @@ void check_plugin(const std::string& text, const std::string& kind, const std::s
   if (!contains(known, name)) unknown(text, name, kind, known);
 }
 
+// A sampler that chooses the integrator needs no other word.
+bool chooses_integrator(const std::string& name) {
+  if (!contains(Registry::instance().names("sampler"), name)) return false;
+  const FoundPlugin found = Registry::instance().find("sampler", name, {});
+  const ParameterSet none;
+  Parameters parameters(none, {}, "sampler \"" + name + "\"", nullptr);
+  return make_plugin<Sampler>(found, parameters)->chooses_integrator();
+}
+
 Technique integrator_technique(const std::string& name) {
+  if (chooses_integrator(name)) {
+    return {.name = name, .integrator = {}, .sampler = name, .set = {}};
+  }
   check_plugin(name, "integrator", name);
   Technique t{.name = name, .integrator = name, .sampler = {}, .set = {}};
   // An alias that implies a sampler brings it along.

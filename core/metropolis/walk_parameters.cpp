@@ -22,10 +22,12 @@ KernelShape shape_of(std::string_view name) {
 
 }  // namespace
 
-StepMix read_step_mix(Parameters& p) {
+StepMix read_step_mix(Parameters& p, float large) {
   StepMix mix;
-  mix.large = probability(p, "largestepprobability", 0.3f,
-                          "of drawing all numbers anew; 0 warns: chains then do not meet");
+  mix.large =
+      probability(p, "largestepprobability", large,
+                  large > 0.f ? "of drawing all numbers anew; 0 warns: chains then do not meet"
+                              : "of drawing all numbers anew");
   mix.film = probability(p, "filmprobability", 0.3f, "of small steps: of the film position alone");
   mix.stream = probability(p, "streamprobability", 0.f,
                            "of small steps: of one stream alone (camera, light, connections)");

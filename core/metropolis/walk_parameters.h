@@ -13,8 +13,9 @@ struct KernelChoice {
   double film_scale = 1.0 / 64;  // of the raster pair [side of a square picture of equal area]
 };
 
-// "largestepprobability", "filmprobability", "streamprobability", "rangeprobability".
-StepMix read_step_mix(Parameters& parameters);
+// "largestepprobability", "filmprobability", "streamprobability", "rangeprobability"; `large`:
+// the first one's default.
+StepMix read_step_mix(Parameters& parameters, float large = 0.3f);
 // "kernel", "sigma", "filmsigma".
 KernelChoice read_kernels(Parameters& parameters);
 

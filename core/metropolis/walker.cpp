@@ -1,11 +1,6 @@
 #include "core/metropolis/walker.h"
 
 namespace pssmlt {
-namespace {
-
-constexpr size_t words_a_block = 5;  // address, four numbers
-
-}  // namespace
 
 void store_numbers(const PrimarySampleOwner& owner, StoredNumbers& numbers) {
   numbers.clear();

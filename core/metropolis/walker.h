@@ -19,8 +19,10 @@ struct WalkSettings {
   Kernel film_y{KernelShape::kelemen, 1.0 / 64};
 };
 
-// The numbers that a chain's state holds, between batches: 20 bytes a block of four.
+// The numbers that a chain's state holds, between batches, by blocks of five words: the block's
+// address (index << 2 | stream), its four numbers.
 using StoredNumbers = std::vector<uint32_t>;
+inline constexpr size_t words_a_block = 5;
 
 // Copies the current state's numbers out of `owner`; `numbers` keeps its capacity.
 void store_numbers(const PrimarySampleOwner& owner, StoredNumbers& numbers);

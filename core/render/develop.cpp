@@ -26,7 +26,7 @@ std::array<double, 2> half_scales(const std::array<double, group_count>& group) 
 LayerScales::LayerScales(const Sampler& s, int64_t rounds)
     : planes(s.planes()),
       common_variance(s.scale_relative_variance()),
-      chain(s.is_chain()),
+      correlated(s.correlates_pixels()),
       paired(s.pairs_groups()),
       sampler(&s) {
   for (int p = 0; p < planes; ++p) {
@@ -250,22 +250,22 @@ void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
 }
 
 void Developer::estimate_pixels(ErrorEstimate& estimate) const {
-  bool chain = false;
+  bool correlated = false;
   double common = 0.0;
   for (const LayerScales& l : layers_) {
-    chain = chain || l.chain;
+    correlated = correlated || l.correlated;
     common = std::max(common, l.common_variance);
   }
-  // Errors of chains are correlated between neighbours: a block is one cell. Otherwise a pixel is.
+  // Where errors of neighbours are correlated a block is one cell. Otherwise a pixel is.
   const BlockGrid& grid = film_.blocks();
-  std::vector<double> cells(static_cast<size_t>(chain ? grid.count() : film_.pixels()));
+  std::vector<double> cells(static_cast<size_t>(correlated ? grid.count() : film_.pixels()));
   const double epsilon = relative_mse_epsilon * estimate.mean * estimate.mean;
   double energy = 0.0;
   const Image variances = variance();
   const Image value = picture();
   const std::vector<double> denominators = relative_denominators(value, half(0), half(1), epsilon);
   for (int p = 0; p < film_.pixels(); ++p) {
-    double& cell = cells[static_cast<size_t>(chain ? grid.block(p) : p)];
+    double& cell = cells[static_cast<size_t>(correlated ? grid.block(p) : p)];
     for (size_t c = 3 * static_cast<size_t>(p); c < 3 * static_cast<size_t>(p) + 3; ++c) {
       if (denominators[c] <= 0.0) continue;
       cell += static_cast<double>(variances.data[c]) / denominators[c];

@@ -22,7 +22,7 @@ struct LayerScales {
   std::vector<std::array<double, group_count>> group;  // [plane][group]; 0: nothing yet
   double balance = 0.25;         // product of the halves' shares of the samples
   double common_variance = 0.0;  // relative, of a factor common to all groups (b)
-  bool chain = false;
+  bool correlated = false;
   bool paired = false;  // Sampler::pairs_groups()
   std::string unknown;  // Sampler::unknown_error()
   const Sampler* sampler = nullptr;

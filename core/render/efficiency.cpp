@@ -61,7 +61,7 @@ std::optional<ChainEfficiency> chain_efficiency(const Film& film, const LayerSca
                                                 int layer, int64_t rounds) {
   const double mutations = scales.sampler->mutations(rounds);
   const auto missing = [](double scale) { return scale <= 0.0; };
-  if (!scales.chain || !(mutations > 0.0)) return std::nullopt;
+  if (!(mutations > 0.0)) return std::nullopt;
   if (std::any_of(scales.group[0].begin(), scales.group[0].end(), missing)) return std::nullopt;
   std::vector<BlockLight> blocks;
   std::vector<double> visits;

@@ -81,7 +81,7 @@ void replay_named(const BuiltScene& scene, const std::string& key, uint64_t seed
                   const LineListener& line) {
   for (size_t l = 0; l < scene.layers.size(); ++l) {
     const Layer& layer = scene.layers[l];
-    if (layer.sampler->is_chain()) continue;
+    if (!key.starts_with(layer.sampler_name + ':')) continue;
     RejectionLog log;
     LayerTools tools(*layer.integrator, *scene.raster_map, log, true, scene.radiance_scale);
     start(scene, layer, layer_seed(seed, l), tools);

@@ -141,14 +141,17 @@ void Session::run_units(LayerState& layer, int count, const std::function<void(i
 
 void Session::start_layer(LayerState& layer) {
   const Clock::time_point start = Clock::now();
-  const SamplerContext context{*scene_.scene, *layer.layer->integrator, *scene_.raster_map,
+  const SamplerContext context{*scene_.scene,
+                               *layer.layer->integrator,
+                               *scene_.raster_map,
                                layer.seed,
                                [&](int count, const std::function<void(int, Worker&)>& body) {
                                  run_units(layer, count, [&](int unit, int slot) {
                                    body(unit, tools(layer, slot).worker);
                                    if (slot == 0) report_progress(0.0);
                                  });
-                               }};
+                               },
+                               scene_.max_component < infinity};
   layer.layer->sampler->start(context);
   layer.start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }

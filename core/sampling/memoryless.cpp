@@ -107,21 +107,28 @@ void MemorylessSampler::run(int64_t round, int unit, SplatSink& sink, Worker& wo
   }
 }
 
-void MemorylessSampler::run_pixel(const SampleId& id, int plane_of_light, SplatSink& sink,
-                                  Worker& worker, Splats& light) const {
+bool MemorylessSampler::evaluate(const SampleId& id, Worker& worker) const {
   Source source(*this, id);
   worker.sample.begin(source);
   worker.sample.set_pixel(static_cast<int>(id.pixel));
   worker.evaluator.name_sample(name_, seed_, id.pixel, static_cast<int64_t>(id.sweep));
-  if (!worker.evaluator.evaluate(worker.sample.sample(), worker.splats, worker.workspace)) return;
-  if (worker.splats.empty()) return;
+  const bool good =
+      worker.evaluator.evaluate(worker.sample.sample(), worker.splats, worker.workspace);
+  worker.evaluator.name_sample(nullptr, 0, -1, -1);
+  return good;
+}
+
+void MemorylessSampler::run_pixel(const SampleId& id, int plane_of_light, SplatSink& sink,
+                                  Worker& worker, Splats& light) const {
+  if (!evaluate(id, worker) || worker.splats.empty()) return;
   const PixelCredit credit = worker.sample.credit();
-  reshape(worker.splats, credit);
+  const double rest = reshape(worker.splats, credit);
   if (plane_of_light == 0) {
     sink.add(0, worker.splats, credit, 1.0, id.group());
   } else {
     add_apart(sink, worker.splats, credit, id.group(), light);
   }
+  if (rest > 0.0) add_rest(id, rest, plane_of_light, sink, worker);
 }
 
 // Samples of the whole picture in the first `rounds` rounds.
@@ -176,14 +183,9 @@ bool MemorylessSampler::replay(const std::string& key, Worker& worker) {
   if (!parse_sample_name(key, name) || name.name != name_ || name.seed != seed_) return false;
   const int64_t pixels = int64_t{size_.x} * size_.y;
   if (name.pixel < 0 || name.pixel >= pixels || name.index < 0) return false;
-  const SampleId id =
-      sample_id({name.pixel % size_.x, name.pixel / size_.x}, static_cast<uint64_t>(name.index));
-  Source source(*this, id);
-  worker.sample.begin(source);
-  worker.sample.set_pixel(static_cast<int>(id.pixel));
-  worker.evaluator.name_sample(name_, seed_, name.pixel, name.index);
   // A sample that is dropped again leaves no splats and is counted.
-  (void)worker.evaluator.evaluate(worker.sample.sample(), worker.splats, worker.workspace);
+  (void)evaluate({name.pixel % size_.x, name.pixel / size_.x}, static_cast<uint64_t>(name.index),
+                 worker);
   return true;
 }
 

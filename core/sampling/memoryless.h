@@ -55,22 +55,36 @@ class MemorylessSampler : public Sampler {
   bool replay(const std::string& key, Worker& worker) override;
 
  protected:
-  // name: of the plugin, static. spp: default samples per pixel. seed: the scene's own.
+  // name: of the plugin, static; nullptr: samples are not named (Evaluator). spp: default samples
+  // per pixel. seed: the scene's own.
   MemorylessSampler(const char* name, double spp, uint64_t seed)
       : name_(name), spp_(spp), scene_seed_(seed) {}
   // The four numbers of a block (index as in NumberSource) of a sample; a pure function.
   virtual void fill(const SampleId& id, Stream stream, uint32_t index,
                     NumberBlock& block) const = 0;
   // What becomes of a sample's splats before they are added; `camera`: where camera splats are
-  // credited. A pure function.
-  virtual void reshape(Splats& splats, const PixelCredit& camera) const {
-    (void)splats, (void)camera;
+  // credited. A pure function. Returns what is left over for add_rest(), which is called after they
+  // were added if that is more than 0.
+  virtual double reshape(Splats& splats, const PixelCredit& camera) const {
+    return (void)splats, (void)camera, 0.0;
+  }
+  // Adds what reshape() left over, in any way; the worker's sample is still the one it was. `plane`
+  // takes splats that may land anywhere.
+  virtual void add_rest(const SampleId& id, double rest, int plane, SplatSink& sink,
+                        Worker& worker) const {
+    (void)id, (void)rest, (void)plane, (void)sink, (void)worker;
+  }
+  // The sample of a pixel in a sweep: splats and numbers are left in the worker, nothing is added.
+  // False if it was dropped.
+  bool evaluate(const ivec2& at, uint64_t sweep, Worker& worker) const {
+    return evaluate(sample_id(at, sweep), worker);
   }
   // Key of all random numbers: the scene's seed and the render's.
   uint64_t seed() const { return seed_; }
 
  private:
   class Source;
+  bool evaluate(const SampleId& id, Worker& worker) const;
   size_t subset_of_round(int64_t round) const { return static_cast<size_t>(round % subsets_); }
   void run_pixel(const SampleId& id, int plane_of_light, SplatSink& sink, Worker& worker,
                  Splats& light) const;

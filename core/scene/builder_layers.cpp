@@ -9,6 +9,7 @@
 
 #include "core/plugin/registry.h"
 #include "core/scene/builder_resolver.h"
+#include "core/scene/integrator_choice.h"
 #include "core/scene/suggest.h"
 
 namespace pssmlt {
@@ -149,43 +150,104 @@ void log_alias(const std::string& kind, const FoundPlugin& found, std::vector<st
   log.push_back(line);
 }
 
+// What the layer's integrator or sampler is made from.
+struct Choice {
+  Directive directive;
+  FoundPlugin found;
+  std::vector<ParameterDoc> docs;
+};
+
+void add_new(std::vector<ParameterDoc>& docs, const std::vector<ParameterDoc>& more) {
+  for (const ParameterDoc& doc : more) {
+    if (std::ranges::find(docs, doc.name, &ParameterDoc::name) == docs.end()) docs.push_back(doc);
+  }
+}
+
+// All integrators there are, each with those of the directive's parameters that it has.
+void make_choice(const Directive& scene, const BuildOptions& options, SceneResolver& resolver,
+                 std::string& settings, std::vector<std::string>& log, Layer& layer) {
+  Registry& registry = Registry::instance();
+  std::vector<std::pair<FoundPlugin, std::vector<ParameterDoc>>> found;
+  std::vector<ParameterDoc> docs;
+  for (const std::string& name : registry.names("integrator")) {
+    try {
+      const FoundPlugin one = registry.find("integrator", name, scene.where);
+      found.emplace_back(one, describe(*one.descriptor));
+      add_new(docs, found.back().second);
+    } catch (const Error& error) {
+      log.push_back("integrator \"" + name + "\" is left out: " + error.what());
+    }
+  }
+  Directive all = scene;
+  all.type = layer.integrator_name;
+  drop_unknown(docs, "integrator", all, log);
+  apply_assignments(options.set, "integrator", docs, all);
+  describe_settings("integrator", all, settings);
+  layer.integrator_values = values_in_force(docs, all);
+  std::vector<IntegratorChoice::Named> choice;
+  for (const auto& [one, known] : found) {
+    Directive its = all;
+    its.type = one.descriptor->name;
+    std::erase_if(its.parameters, [&, &known = known](const Parameter& p) {
+      return std::ranges::find(known, p.name, &ParameterDoc::name) == known.end();
+    });
+    settings += "or " + its.type + "\n";
+    choice.push_back({its.type, make<Integrator>("integrator", one, its, resolver)});
+  }
+  layer.integrator = std::make_shared<IntegratorChoice>(std::move(choice));
+}
+
+void make_integrator(Choice& c, const BuildOptions& options, SceneResolver& resolver,
+                     std::string& settings, Layer& layer) {
+  apply_assignments(options.set, "integrator", c.docs, c.directive);
+  describe_settings("integrator", c.directive, settings);
+  layer.integrator = make<Integrator>("integrator", c.found, c.directive, resolver);
+  layer.integrator_name = c.found.descriptor->name;
+  layer.integrator_values = values_in_force(c.docs, c.directive);
+}
+
+void make_sampler(Choice& c, const BuildOptions& options, SceneResolver& resolver,
+                  std::string& settings, std::vector<std::string>& log, Layer& layer) {
+  c.found = Registry::instance().find("sampler", c.directive.type, c.directive.where);
+  log_alias("sampler", c.found, log);
+  c.docs = describe(*c.found.descriptor);
+  // An alias' parameters are another plugin's: what ours does not know is said, not refused.
+  if (options.sampler || !c.found.alias.empty()) drop_unknown(c.docs, "sampler", c.directive, log);
+  apply_assignments(options.set, "sampler", c.docs, c.directive);
+  describe_settings("sampler", c.directive, settings);
+  layer.sampler = make<Sampler>("sampler", c.found, c.directive, resolver);
+  layer.sampler_name = c.found.descriptor->name;
+  layer.sampler_values = values_in_force(c.docs, c.directive);
+}
+
 Layer build_layer(const LayerDescription& description, const BuildOptions& options,
                   SceneResolver& resolver, std::string& settings, std::vector<std::string>& log) {
-  Registry& registry = Registry::instance();
-  Directive integrator =
-      choose(description.integrator, options.integrator, options.defaults.integrator);
-  Directive sampler = choose(description.sampler, options.sampler, options.defaults.sampler);
-  const FoundPlugin found_integrator =
-      registry.find("integrator", integrator.type, integrator.where);
-  log_alias("integrator", found_integrator, log);
-  // --sampler overrules what an alias implies.
-  if (!found_integrator.sampler.empty()) {
-    split_alias(found_integrator, integrator, sampler);
-    if (options.sampler) sampler.type = *options.sampler;
-  }
-  const FoundPlugin found_sampler = registry.find("sampler", sampler.type, sampler.where);
-  log_alias("sampler", found_sampler, log);
-  const auto integrator_docs = describe(*found_integrator.descriptor);
-  const auto sampler_docs = describe(*found_sampler.descriptor);
-  // An alias' parameters are another plugin's: what ours does not know is said, not refused.
-  if (options.integrator || !found_integrator.alias.empty()) {
-    drop_unknown(integrator_docs, "integrator", integrator, log);
-  }
-  if (options.sampler || !found_sampler.alias.empty()) {
-    drop_unknown(sampler_docs, "sampler", sampler, log);
-  }
-  apply_assignments(options.set, "integrator", integrator_docs, integrator);
-  apply_assignments(options.set, "sampler", sampler_docs, sampler);
-  describe_settings("integrator", integrator, settings);
-  describe_settings("sampler", sampler, settings);
   Layer layer;
   layer.name = description.name;
-  layer.integrator = make<Integrator>("integrator", found_integrator, integrator, resolver);
-  layer.sampler = make<Sampler>("sampler", found_sampler, sampler, resolver);
-  layer.integrator_name = found_integrator.descriptor->name;
-  layer.sampler_name = found_sampler.descriptor->name;
-  layer.integrator_values = values_in_force(integrator_docs, integrator);
-  layer.sampler_values = values_in_force(sampler_docs, sampler);
+  const bool named = options.integrator || !description.integrator.type.empty();
+  Choice integrator, sampler;
+  integrator.directive =
+      choose(description.integrator, options.integrator, options.defaults.integrator);
+  sampler.directive = choose(description.sampler, options.sampler, options.defaults.sampler);
+  integrator.found = Registry::instance().find("integrator", integrator.directive.type,
+                                               integrator.directive.where);
+  // --sampler overrules what an alias implies.
+  if (!integrator.found.sampler.empty()) {
+    split_alias(integrator.found, integrator.directive, sampler.directive);
+    if (options.sampler) sampler.directive.type = *options.sampler;
+  }
+  make_sampler(sampler, options, resolver, settings, log, layer);
+  if (layer.sampler->chooses_integrator() && !options.integrator && (options.sampler || !named)) {
+    layer.integrator_name = layer.sampler_name;
+    make_choice(integrator.directive, options, resolver, settings, log, layer);
+    return layer;
+  }
+  log_alias("integrator", integrator.found, log);
+  integrator.docs = describe(*integrator.found.descriptor);
+  if (options.integrator || !integrator.found.alias.empty()) {
+    drop_unknown(integrator.docs, "integrator", integrator.directive, log);
+  }
+  make_integrator(integrator, options, resolver, settings, layer);
   return layer;
 }
 

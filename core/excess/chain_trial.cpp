@@ -1,0 +1,98 @@
+#include "core/excess/chain_trial.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/excess/pilot.h"
+
+namespace pssmlt {
+namespace {
+
+constexpr int chain_count = group_count;  // a group each
+constexpr double mutations = 65536.0;     // of all chains together
+
+// What chains credited to pixels.
+class TrialSink final : public SplatSink {
+ public:
+  struct Credit {
+    int group = 0, pixel = 0;
+    double value = 0.0;  // [local means]
+  };
+  TrialSink(const RasterFrame& frame, const LocalMean& mean, std::array<double, 2> scales)
+      : frame_(frame), mean_(mean), scales_(scales) {}
+  void add(int plane, const Splats& splats, const PixelCredit& camera, double weight,
+           int group) override {
+    for (const Splat& s : splats.all()) {
+      const dvec2 raster = s.from_camera ? Pilot::centre(camera, frame_) : s.raster;
+      const int pixel = pixel_at(raster);
+      if (pixel < 0) continue;
+      const double value = static_cast<double>(luminance(s.value)) / mean_.at(raster);
+      credits_.push_back({group, pixel, weight * scales_[static_cast<size_t>(plane)] * value});
+    }
+  }
+  const std::vector<Credit>& credits() const { return credits_; }
+
+ private:
+  int pixel_at(const dvec2& raster) const {
+    const ivec2 at(glm::floor(raster - dvec2(frame_.crop_min)));
+    const ivec2 size = frame_.crop_size();
+    const bool inside = at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y;
+    return inside ? at.y * size.x + at.x : -1;
+  }
+  const RasterFrame& frame_;
+  const LocalMean& mean_;
+  std::array<double, 2> scales_;  // of the planes
+  std::vector<Credit> credits_;
+};
+
+// Mean over pixels of the variance between groups.
+double variance_between(std::vector<TrialSink::Credit>& credits, double pixels) {
+  std::ranges::sort(credits, [](const TrialSink::Credit& a, const TrialSink::Credit& b) {
+    return a.pixel != b.pixel ? a.pixel < b.pixel : a.group < b.group;
+  });
+  double own = 0.0, all = 0.0;  // sums over pixels: of groups' squares, of the sum's square
+  for (size_t i = 0; i < credits.size();) {
+    const int pixel = credits[i].pixel;
+    double sum = 0.0;
+    while (i < credits.size() && credits[i].pixel == pixel) {
+      const int group = credits[i].group;
+      double one = 0.0;
+      for (; i < credits.size() && credits[i].pixel == pixel && credits[i].group == group; ++i) {
+        one += credits[i].value;
+      }
+      own += one * one;
+      sum += one;
+    }
+    all += sum * sum;
+  }
+  constexpr double n = group_count;
+  return std::max(0.0, (own / n - (all - own) / (n * (n - 1.0))) / pixels);
+}
+
+}  // namespace
+
+double trial_variance(const SamplerContext& context, uint64_t seed, PopulationSettings settings,
+                      const ChainTarget& target, const LocalMean& mean, int candidates) {
+  settings.chains = chain_count;
+  settings.seed = mix_bits(settings.seed + seed);
+  ChainPopulation chains("trial", settings);
+  chains.start(context, target, {mutations, candidates});
+  if (chains.empty()) return 0.0;
+  const RasterFrame& frame = context.raster_map.frame();
+  // b as it was at the start will do.
+  const std::array<double, 2> scales = {chains.scale(1) * group_count,
+                                        chains.large_scale(1) * group_count};
+  std::vector<TrialSink> sinks(static_cast<size_t>(chains.units()), TrialSink(frame, mean, scales));
+  context.parallel(chains.units(), [&](int unit, Worker& worker) {
+    chains.run(0, unit, 0, sinks[static_cast<size_t>(unit)], worker);
+  });
+  std::vector<TrialSink::Credit> credits;
+  for (const TrialSink& sink : sinks) {
+    credits.insert(credits.end(), sink.credits().begin(), sink.credits().end());
+  }
+  const double pixels = frame.pixels();
+  return variance_between(credits, pixels) * chains.mutations() / (group_count * pixels);
+}
+
+}  // namespace pssmlt
