@@ -62,7 +62,15 @@ constexpr SmallScene scenes[] = {{"room", room}, {"garden", garden}};
 struct Technique {
   std::string name, integrator, sampler;
   double spp = 32.0;
+  std::vector<std::string> set = {};
 };
+// Small pictures need no 100000 candidates.
+const std::vector<std::string> chains = {"sampler.bootstrapsamples=4000", "sampler.chains=128"};
+// A limit that leaves chains something to do in scenes as quiet as these.
+const std::vector<std::string> excess = {"sampler.threshold=1.5", "sampler.chainshare=0.3",
+                                         "sampler.bootstrapsamples=4000", "sampler.stickiness=8"};
+const std::vector<std::string> spread = {"sampler.threshold=1.5", "sampler.mutations=1",
+                                         "sampler.chainlength=20", "sampler.pilotsamples=4000"};
 const std::vector<Technique> techniques = {
     {"path/independent", "path", "independent"},
     {"path/stratified", "path", "stratified"},
@@ -71,8 +79,12 @@ const std::vector<Technique> techniques = {
     {"light/sobol", "light", "sobol"},
     {"bdpt/independent", "bdpt", "independent"},
     {"bdpt/sobol", "bdpt", "sobol"},
-    {"pssmlt/path", "path", "pssmlt", 64.0},
-    {"pssmlt/bdpt", "bdpt", "pssmlt", 64.0},
+    {"pssmlt/path", "path", "pssmlt", 64.0, chains},
+    {"pssmlt/bdpt", "bdpt", "pssmlt", 64.0, chains},
+    {"excess/path", "path", "excess", 64.0, excess},
+    {"excess/bdpt", "bdpt", "excess", 64.0, excess},
+    {"erpt/path", "path", "erpt", 64.0, spread},
+    {"erpt/bdpt", "bdpt", "erpt", 64.0, spread},
 };
 
 BuiltScene build(const SmallScene& scene, const Technique& t) {
@@ -81,10 +93,7 @@ BuiltScene build(const SmallScene& scene, const Technique& t) {
   options.integrator = t.integrator;
   options.sampler = t.sampler;
   options.set = {"integrator.maxdepth=3"};
-  // Small pictures need no 100000 candidates.
-  if (t.sampler == "pssmlt") {
-    options.set.insert(options.set.end(), {"sampler.bootstrapsamples=4000", "sampler.chains=128"});
-  }
+  options.set.insert(options.set.end(), t.set.begin(), t.set.end());
   return build_scene(parse_string(scene.text, scene.name), options);
 }
 

@@ -31,9 +31,8 @@ void IntegratorChoice::prepare(const Scene& scene) {
   if (std::ranges::any_of(all_, [](const Named& one) { return one.integrator->fixed(); })) {
     std::erase_if(all_, [](const Named& one) { return !one.integrator->fixed(); });
   }
-  std::ranges::stable_sort(all_, std::ranges::greater(), [](const Named& one) {
-    return classes_seen(*one.integrator);
-  });
+  std::ranges::stable_sort(all_, std::ranges::greater(),
+                           [](const Named& one) { return classes_seen(*one.integrator); });
   const std::vector<Named> some = all_;
   std::erase_if(all_, [&](const Named& one) {
     return std::ranges::any_of(some, [&](const Named& other) {

@@ -23,7 +23,7 @@ const std::array<const char*, 10> plugin_folders = {
 struct OtherMeaning {
   const char *word, *place, *meaning;  // place: a folder or a file
 };
-const std::array<OtherMeaning, 11> other_meanings = {
+const std::array<OtherMeaning, 13> other_meanings = {
     {{"light", "core/scene", "a kind of plugin and a target of Attribute"},
      {"light", "core/metropolis", "a stream of primary samples"},
      {"light", "core/render", "the same stream"},
@@ -33,6 +33,8 @@ const std::array<OtherMeaning, 11> other_meanings = {
      {"gaussian", "core/lens/aperture.cpp", "how a stop lets light through"},
      {"spherical", "core/texture_mapping.cpp", "how textures find their coordinates"},
      {"scale", "core/media", "a factor, a parameter of media"},
+     {"threshold", "core/excess", "a parameter: a limit of samples"},
+     {"excess", "core/excess", "a figure of the summary: the light above that limit"},
      {"pssmlt", "core/plugin", "the folder of installed plugins"},
      {"pssmlt", "core/base", "the program, in log lines"}}};
 

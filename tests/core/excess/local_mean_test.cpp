@@ -6,15 +6,12 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "tests/support/toy.h"
 
 namespace pssmlt {
 namespace {
 
-RasterFrame frame_of(int width, int height) {
-  RasterFrame frame;
-  frame.resolution = frame.crop_max = {width, height};
-  return frame;
-}
+using test::frame_of;
 
 // A picture that is four times brighter on the right, with one sample a million times too bright:
 // the map follows the picture and not the sample.

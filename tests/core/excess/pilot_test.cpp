@@ -4,14 +4,12 @@
 
 #include <set>
 
+#include "tests/support/toy.h"
+
 namespace pssmlt {
 namespace {
 
-RasterFrame frame_of(int width, int height) {
-  RasterFrame frame;
-  frame.resolution = frame.crop_max = {width, height};
-  return frame;
-}
+using test::frame_of;
 
 // Every cell's pixel lies in the cell, whatever the size, and all pixels of the window belong to a
 // cell.
