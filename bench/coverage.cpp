@@ -142,6 +142,7 @@ Estimates estimate(const BuiltScene& scene, double spp, uint64_t seed) {
 std::vector<double> truth(const SmallScene& scene, const Technique& t, std::vector<double>& error) {
   Technique best = t;
   best.sampler = "sobol";
+  best.set.clear();
   if (t.integrator != "light") best.integrator = "path";
   const BuiltScene built = build(scene, best);
   constexpr int seeds = 16;

@@ -10,7 +10,8 @@ namespace pssmlt {
 namespace {
 
 constexpr int chain_count = group_count;  // a group each
-constexpr double mutations = 65536.0;     // of all chains together
+// Of all chains together: on small pictures in proportion to their size.
+constexpr double mutations_a_pixel = 16.0, least_mutations = 8192.0, most_mutations = 65536.0;
 
 // What chains credited to pixels.
 class TrialSink final : public SplatSink {
@@ -74,12 +75,15 @@ double variance_between(std::vector<TrialSink::Credit>& credits, double pixels) 
 
 double trial_variance(const SamplerContext& context, uint64_t seed, PopulationSettings settings,
                       const ChainTarget& target, const LocalMean& mean, int candidates) {
+  const RasterFrame& frame = context.raster_map.frame();
+  const double mutations =
+      std::clamp(mutations_a_pixel * frame.pixels(), least_mutations, most_mutations);
+  candidates = std::min(candidates, static_cast<int>(mutations / 4.0));
   settings.chains = chain_count;
   settings.seed = mix_bits(settings.seed + seed);
   ChainPopulation chains("trial", settings);
   chains.start(context, target, {mutations, candidates});
   if (chains.empty()) return 0.0;
-  const RasterFrame& frame = context.raster_map.frame();
   // b as it was at the start will do.
   const std::array<double, 2> scales = {chains.scale(1) * group_count,
                                         chains.large_scale(1) * group_count};

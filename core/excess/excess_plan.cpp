@@ -42,8 +42,9 @@ class Splitter {
   const RelativePilot& relative() const { return relative_; }
 
   void run(ExcessPlan& plan) {
-    const bool given = settings_.stickiness > 0.0;
-    plan.stickiness = given ? settings_.stickiness : guess;
+    const bool decided = settings_.threshold > 0.0 && settings_.share > 0.0;
+    const bool given = settings_.stickiness > 0.0 || decided;
+    plan.stickiness = settings_.stickiness > 0.0 ? settings_.stickiness : guess;
     plan.split = split(plan.stickiness);
     for (int trial = 0; !given && trial < most_trials; ++trial) {
       const double before = plan.split.threshold;
@@ -67,10 +68,8 @@ class Splitter {
   double measure(double threshold) const {
     const ExcessLimit limit{&mean_, threshold};
     const AboveLimit target(limit);
-    return trial_variance(context_, seed_, settings_.chains, target, mean_,
-                          std::min(candidates_, most_candidates));
+    return trial_variance(context_, seed_, settings_.chains, target, mean_, candidates_);
   }
-  static constexpr int most_candidates = 16384;  // of a trial
   const SamplerContext& context_;
   uint64_t seed_;
   const ExcessPlanSettings& settings_;

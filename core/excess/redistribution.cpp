@@ -9,7 +9,7 @@
 namespace pssmlt {
 namespace {
 
-constexpr int probes = 4096;  // samples that tell which numbers are read
+constexpr int probes = 1024;  // samples that tell which numbers are read
 
 // A number that chose an offset within its pixel, as one that chooses pixel and offset.
 uint32_t over_the_window(uint32_t offset, int pixel, int pixels) {

@@ -88,6 +88,10 @@ TEST_P(ClosedForms, UnderSamplersInTurn) {
     const double goal = precise ? .0008 : .0023;
     Job job{.scene = c.form.scene, .integrator = c.integrator, .sampler = sampler};
     job.set = {"integrator.paths=" + c.form.classes};
+    // Of 64 pixels.
+    if (has_parameter("sampler", sampler, "pilotsamples")) {
+      job.set.emplace_back("sampler.pilotsamples=2048");
+    }
     job.spp = 64;
     const int edge = c.form.values.size() == 1 ? 8 : 4;
     const Blocks blocks = render_to_precision(job, renders, edge, {4.0 * goal, goal}, 4096);
