@@ -19,8 +19,8 @@ class PilotSweeps final : public SobolSweeps {
   PilotSweeps(const SamplerContext& context, uint64_t seed) : SobolSweeps(nullptr, 1.0, seed) {
     start(context);
   }
-  void run(std::span<const uint32_t> cells, uint64_t begin, uint64_t end, Worker& worker,
-           Pilot& pilot) const {
+  void run_cells(std::span<const uint32_t> cells, uint64_t begin, uint64_t end, Worker& worker,
+                 Pilot& pilot) const {
     const RayCounters before = ray_counters();
     for (const uint32_t cell : cells) {
       for (uint64_t sweep = begin; sweep < end; ++sweep) {
@@ -41,7 +41,8 @@ void run_sweeps(const SamplerContext& context, const PilotSweeps& sweeps,
   context.parallel(static_cast<int>(units), [&](int unit, Worker& worker) {
     const size_t first = static_cast<size_t>(unit) * cells_a_unit;
     const size_t count = std::min(cells.size() - first, cells_a_unit);
-    sweeps.run(cells.subspan(first, count), begin, end, worker, parts[static_cast<size_t>(unit)]);
+    sweeps.run_cells(cells.subspan(first, count), begin, end, worker,
+                     parts[static_cast<size_t>(unit)]);
   });
   for (const Pilot& part : parts) all.append(part);
 }
