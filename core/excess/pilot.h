@@ -22,10 +22,11 @@ class PilotLattice {
         cells_((size_ + (stride - 1)) / stride) {}
   int count() const { return cells_.x * cells_.y; }
   const ivec2& cells() const { return cells_; }  // columns, rows
-  // Index of the cell (row major) where a position [pixels] lies; the nearest one outside.
+  // Of a cell by column and row; row major.
   size_t index(const ivec2& c) const {
     return static_cast<size_t>(c.y) * static_cast<size_t>(cells_.x) + static_cast<size_t>(c.x);
   }
+  // Of the cell where a position [pixels] lies; outside the window the nearest one.
   size_t at(const dvec2& raster) const {
     const dvec2 place = (raster - corner_) / static_cast<double>(stride_);
     return index(ivec2(glm::clamp(glm::floor(place), dvec2(0.0), dvec2(cells_ - 1))));

@@ -24,10 +24,10 @@ struct Scratch {
   Splats current;
 };
 
-// No more numbers than the state holds: chains draw what else they read.
-class NoSource final : public NumberSource {
+// For numbers that the state does not hold, should rounding lead the sample to read some.
+class RestSource final : public NumberSource {
  public:
-  explicit NoSource(uint64_t seed) : seed_(seed) {}
+  explicit RestSource(uint64_t seed) : seed_(seed) {}
   void fill(Stream stream, uint32_t index, NumberBlock& block) override {
     const uint32_t what = index << 2 | static_cast<uint32_t>(stream);
     block = philox(seed_, {what, 0, 0, static_cast<uint32_t>(RandomUse::resample)});
@@ -45,12 +45,7 @@ void Redistribution::start(const SamplerContext& context, const ChainTarget& tar
   deposit_ = deposit;
   target_ = &target;
   size_ = context.raster_map.frame().crop_size();
-  const KernelChoice& k = settings_.kernels;
-  const dvec2 size(size_);
-  const double side = std::sqrt(size.x * size.y);
-  walk_.kernel = Kernel(k.shape, k.scale);
-  walk_.film_x = Kernel(k.shape, k.film_scale * side / size.x);
-  walk_.film_y = Kernel(k.shape, k.film_scale * side / size.y);
+  set_kernels(walk_, settings_.kernels, size_);
   unsigned streams = 0;
   bool raster = false;
   context.parallel(1, [&](int, Worker& worker) {
@@ -94,7 +89,7 @@ void Redistribution::run(uint64_t key, double value, int plane, int group, Splat
     pair[1] = over_the_window(pair[1], pixel / size_.x, size_.y);
   }
   // The target is that of the numbers as they are now.
-  NoSource source(key);
+  RestSource source(key);
   restore_numbers(start.numbers, raster, source, worker.sample);
   if (!worker.evaluator.evaluate(worker.sample.sample(), worker.splats, worker.workspace)) return;
   start.credit = worker.sample.credit();

@@ -33,10 +33,6 @@ std::vector<PilotLight> lights(const std::vector<RedistributionOption>& options)
   return all;
 }
 
-}  // namespace
-
-namespace {
-
 // What samples above a limit leave as noise if chains of this length and number spread them. A
 // sample worth less than a chain's deposit gives one seldom, which then carries more.
 void spread(std::span<const RelativePilot::Above> above, double samples,
@@ -141,10 +137,11 @@ std::string to_string(const RedistributionOption& o) {
       "{}: {:.3g} rays a sample, light {:.4g} +- {:.2g} local means, variance of a sample {:.3g}",
       o.integrator, o.rays, o.light.mean, o.light.error, o.plain);
   if (!(o.mutations > 0.0)) return text + "; without chains";
-  return text + fmt::format(
-                    "; {:.3g} expected with {:.2g} mutations, spread above {:.3g} local "
-                    "means",
-                    o.variance, o.mutations, o.threshold);
+  return text +
+         fmt::format(
+             "; {:.3g} expected with {:.2g} mutations in chains of {}, spread above {:.3g} local "
+             "means",
+             o.variance, o.mutations, o.length, o.threshold);
 }
 
 }  // namespace pssmlt

@@ -86,13 +86,7 @@ void ChainPopulation::plan(const RasterFrame& frame, double mutations_a_round) {
     steps_ = static_cast<int>(std::clamp<int64_t>(a_round / chain_count_, least_stretch, 1024));
   }
 
-  const KernelChoice& k = settings_.kernels;
-  walk_.kernel = Kernel(k.shape, k.scale);
-  // The same distance in pixels along both axes.
-  const dvec2 size(frame.crop_size());
-  const double side = std::sqrt(size.x * size.y);
-  walk_.film_x = Kernel(k.shape, k.film_scale * side / size.x);
-  walk_.film_y = Kernel(k.shape, k.film_scale * side / size.y);
+  set_kernels(walk_, settings_.kernels, frame.crop_size());
 }
 
 void ChainPopulation::bootstrap(const SamplerContext& context) {

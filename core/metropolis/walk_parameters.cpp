@@ -1,6 +1,9 @@
 #include "core/metropolis/walk_parameters.h"
 
 #include <array>
+#include <cmath>
+
+#include "core/metropolis/walker.h"
 
 namespace pssmlt {
 namespace {
@@ -56,6 +59,14 @@ KernelChoice read_kernels(Parameters& p) {
   if (choice.shape != KernelShape::kelemen) choice.scale = sigma;
   choice.film_scale = film > 0.f ? film : choice.scale;
   return choice;
+}
+
+void set_kernels(WalkSettings& walk, const KernelChoice& k, const ivec2& size) {
+  const dvec2 edges(size);
+  const double side = std::sqrt(edges.x * edges.y);
+  walk.kernel = Kernel(k.shape, k.scale);
+  walk.film_x = Kernel(k.shape, k.film_scale * side / edges.x);
+  walk.film_y = Kernel(k.shape, k.film_scale * side / edges.y);
 }
 
 }  // namespace pssmlt

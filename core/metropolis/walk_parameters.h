@@ -18,5 +18,7 @@ struct KernelChoice {
 StepMix read_step_mix(Parameters& parameters, float large = 0.3f);
 // "kernel", "sigma", "filmsigma".
 KernelChoice read_kernels(Parameters& parameters);
+// For a window of this size [pixels]: film steps have the same length in pixels along both axes.
+void set_kernels(struct WalkSettings& walk, const KernelChoice& choice, const ivec2& size);
 
 }  // namespace pssmlt

@@ -128,8 +128,7 @@ LayerTools& Session::tools(LayerState& layer, int slot) {
 }
 
 // Runs the units and counts the rays that each slot traced meanwhile.
-void Session::run_units(LayerState& layer, int count, const std::function<void(int, int)>& body) {
-  (void)layer;
+void Session::run_units(int count, const std::function<void(int, int)>& body) {
   pool_.run(count, [&](int unit, int slot) {
     const RayCounters before = ray_counters();
     body(unit, slot);
@@ -141,17 +140,15 @@ void Session::run_units(LayerState& layer, int count, const std::function<void(i
 
 void Session::start_layer(LayerState& layer) {
   const Clock::time_point start = Clock::now();
-  const SamplerContext context{*scene_.scene,
-                               *layer.layer->integrator,
-                               *scene_.raster_map,
-                               layer.seed,
-                               [&](int count, const std::function<void(int, Worker&)>& body) {
-                                 run_units(layer, count, [&](int unit, int slot) {
-                                   body(unit, tools(layer, slot).worker);
-                                   if (slot == 0) report_progress(0.0);
-                                 });
-                               },
-                               scene_.max_component < infinity};
+  const auto parallel = [&](int count, const std::function<void(int, Worker&)>& body) {
+    run_units(count, [&](int unit, int slot) {
+      body(unit, tools(layer, slot).worker);
+      if (slot == 0) report_progress(0.0);
+    });
+  };
+  const bool clamped = scene_.max_component < infinity;
+  const SamplerContext context{
+      *scene_.scene, *layer.layer->integrator, *scene_.raster_map, layer.seed, parallel, clamped};
   layer.layer->sampler->start(context);
   layer.start_seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -182,7 +179,7 @@ void Session::run_passes(LayerState& layer) {
   Integrator& integrator = *layer.layer->integrator;
   const int count = integrator.passes(layer.rounds);
   if (count == 0) return;
-  run_units(layer, count, [&](int unit, int slot) {
+  run_units(count, [&](int unit, int slot) {
     PassSource source(layer.seed, layer.rounds, unit);
     PrimarySampleOwner& owner = tools(layer, slot).sample;
     owner.begin(source);
@@ -204,7 +201,7 @@ void Session::run_round(LayerState& layer) {
   at.clamp = scene_.max_component;
   at.factor = 1.0 / scene_.radiance_scale;
   std::atomic<int> finished{0};
-  run_units(layer, units, [&](int unit, int slot) {
+  run_units(units, [&](int unit, int slot) {
     UnitSink::Unit mine = at;
     mine.unit = unit;
     UnitSink sink(film_, block_sums_[static_cast<size_t>(slot)], *scene_.raster_map, mine);

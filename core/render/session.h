@@ -77,7 +77,7 @@ class Session {
   void make_layers();
   void start_layer(LayerState& layer);
   LayerTools& tools(LayerState& layer, int slot);
-  void run_units(LayerState& layer, int count, const std::function<void(int, int)>& body);
+  void run_units(int count, const std::function<void(int, int)>& body);
   LayerState* next_layer();
   void run_passes(LayerState& layer);
   void run_round(LayerState& layer);
