@@ -106,12 +106,13 @@ struct Estimates {
   std::vector<Interval> blocks;
 };
 
+// `common`: deviation of what all groups have in common.
 Interval interval(const std::vector<double>& groups, double common) {
   const auto n = static_cast<double>(groups.size());
   double mean = 0.0, variance = 0.0;
   for (const double g : groups) mean += g / n;
   for (const double g : groups) variance += (g - mean) * (g - mean) / (n * (n - 1.0));
-  return {mean, student_quantile(n - 1.0) * std::sqrt(variance + common * mean * mean)};
+  return {mean, student_quantile(n - 1.0) * std::sqrt(variance + common * common)};
 }
 
 Estimates estimate(const BuiltScene& scene, double spp, uint64_t seed) {
@@ -132,7 +133,7 @@ Estimates estimate(const BuiltScene& scene, double spp, uint64_t seed) {
   for (size_t b = 0; b < groups.means.at(0).size(); ++b) {
     std::vector<double> column;
     for (const auto& row : groups.means) column.push_back(row[b]);
-    e.blocks.push_back(interval(column, groups.common_variance));
+    e.blocks.push_back(interval(column, groups.common[b]));
   }
   return e;
 }

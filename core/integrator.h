@@ -38,6 +38,10 @@ class Integrator : public PluginNamed {
     return (void)alternative, plugin_name();
   }
 
+  // True if a sample is one of many parts of what others estimate with each: worth its noise under
+  // Markov chains alone. Who chooses among integrators for independent samples leaves it out.
+  virtual bool is_for_chains() const { return false; }
+
   // Work units to run in parallel before round `round` (photon maps, caches): pass() is a pure
   // function of (round, unit, u), merge_passes() runs serially after all of them.
   virtual int passes(int64_t round) const { return (void)round, 0; }

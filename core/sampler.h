@@ -81,7 +81,8 @@ class Sampler {
   // The error is then told from the pairs' differences, which leaves samples of one group free to
   // depend on each other. group_scale() is that of the group's share of samples all the same.
   virtual bool pairs_groups() const { return false; }
-  // Relative variance of a factor common to all groups (b), to be added to the picture's.
+  // Relative variance of a factor (b) that all groups' parts on the planes of chains
+  // (is_chain_plane) have in common, to be added to the picture's.
   virtual double scale_relative_variance() const { return 0.0; }
   // True: where nobody named an integrator, one that offers all there are as alternatives is asked.
   virtual bool chooses_integrator() const { return false; }

@@ -7,13 +7,15 @@
 #include <array>
 
 #include "core/base/log.h"
+#include "core/excess/excess_pilots.h"
+#include "core/excess/relative_target.h"
 #include "core/metropolis/chain_population.h"
 #include "core/plugin/plugin.h"
 
 namespace pssmlt {
 namespace {
 
-constexpr std::array<std::string_view, 1> target_names = {"luminance"};
+constexpr std::array<std::string_view, 2> target_names = {"luminance", "equalised"};
 
 class Pssmlt final : public Sampler {
  public:
@@ -23,10 +25,16 @@ class Pssmlt final : public Sampler {
         mutations_per_pixel_(
             p.integer("mutationsperpixel", 100, "mutations", "default budget, per pixel")),
         chains_("pssmlt", settings_) {
-    (void)p.choice("target", "luminance", target_names, "scalar that the chains follow");
+    equalised_ = p.choice("target", "luminance", target_names,
+                          "scalar that the chains follow: the luminance, or that over the local "
+                          "mean, for even relative errors (Hoberock and Hart 2010)") == "equalised";
+    pilot_samples_ = p.integer("pilotsamples", 0, "samples",
+                               "Sobol' points that give the local means, if equalised; 0: four a "
+                               "pixel and more, fewer on large pictures");
     if (mutations_per_pixel_ < 1) {
       p.fail("mutationsperpixel", "\"mutationsperpixel\" must be positive");
     }
+    if (pilot_samples_ < 0) p.fail("pilotsamples", "\"pilotsamples\" must not be negative");
   }
 
   void start(const SamplerContext& context) override;
@@ -45,6 +53,9 @@ class Pssmlt final : public Sampler {
   }
   double scale_relative_variance() const override { return chains_.scale_relative_variance(); }
   bool is_chain() const override { return true; }
+  double visits(const dvec2& place) const override {
+    return equalised_ ? 1.0 / mean_.at(corner_ + place) : 1.0;
+  }
   void save(Archive& archive) const override { chains_.save(archive); }
   void load(Archive& archive) override { chains_.load(archive); }
   bool replay(const std::string& key, Worker& worker) override {
@@ -58,7 +69,12 @@ class Pssmlt final : public Sampler {
  private:
   PopulationSettings settings_;
   int mutations_per_pixel_;
-  LuminanceTarget target_;
+  bool equalised_ = false;
+  int pilot_samples_ = 0;
+  LocalMean mean_;     // of the picture, if equalised
+  dvec2 corner_{0.0};  // of the window [pixels]
+  LuminanceTarget luminance_;
+  RelativeTarget relative_{mean_};
   ChainPopulation chains_;
 };
 
@@ -68,7 +84,14 @@ void Pssmlt::start(const SamplerContext& context) {
         "sampler \"pssmlt\": this integrator's estimate changes from round to round, so that "
         "no Markov chain can follow it; choose another sampler");
   }
-  chains_.start(context, target_);
+  if (equalised_) {
+    const uint64_t seed = mix_bits(mix_bits(context.seed + 0x70696C6F74u) + settings_.seed);
+    mean_ = find_local_mean(context, seed, pilot_samples_);
+    corner_ = dvec2(context.raster_map.frame().crop_min);
+    chains_.start(context, relative_);
+  } else {
+    chains_.start(context, luminance_);
+  }
   for (const std::string& warning : warnings()) log_warning(warning);
 }
 

@@ -18,11 +18,11 @@ constexpr double rounding = 1e-5;
 
 using Rows = std::vector<std::vector<double>>;  // [group][block]
 
-// An error common to all groups (of b) as a spread of the groups: the signs sum to zero, so that
-// the mean stays, and `period` makes those of two techniques orthogonal.
-double common_factor(double relative_variance, size_t group, size_t groups, size_t period) {
+// An error common to all groups (of b) as a spread of the groups, in its deviations: the signs sum
+// to zero, so that the mean stays, and `period` makes those of two techniques orthogonal.
+double common_spread(size_t group, size_t groups, size_t period) {
   const double sign = group / period % 2 == 0 ? 1.0 : -1.0;
-  return 1.0 + sign * std::sqrt(static_cast<double>(groups) * relative_variance);
+  return sign * std::sqrt(static_cast<double>(groups));
 }
 
 // Where one technique has twice as many groups as the other, its own are averaged by twos.
@@ -45,9 +45,10 @@ Rows differences(const GroupBlocks& a, const GroupBlocks& b) {
   const size_t blocks = groups == 0 ? 0 : std::min(a.means[0].size(), b.means[0].size());
   Rows d(groups, std::vector<double>(blocks));
   for (size_t g = 0; g < groups; ++g) {
-    const double of_a = common_factor(a.common_variance, g, groups, 1);
-    const double of_b = common_factor(b.common_variance, g, groups, 2);
-    for (size_t k = 0; k < blocks; ++k) d[g][k] = a.means[g][k] * of_a - b.means[g][k] * of_b;
+    const double of_a = common_spread(g, groups, 1), of_b = common_spread(g, groups, 2);
+    for (size_t k = 0; k < blocks; ++k) {
+      d[g][k] = a.means[g][k] - b.means[g][k] + of_a * a.common[k] - of_b * b.common[k];
+    }
   }
   return d;
 }

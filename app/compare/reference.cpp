@@ -46,14 +46,14 @@ Level common_level(const RenderResult& a, const RenderResult& b) {
 Number relative_variance(const Half& h, const Level& level) {
   const Image& variance = h.result.variance;
   if (variance.data.empty() || level.denominators.empty()) return std::nullopt;
+  const double common = h.blocks.common_variance();
   double sum = 0.0;
   for (size_t i = 0; i < variance.data.size(); ++i) {
     if (!(level.denominators[i] > 0.0)) continue;
     // As in the renderer's own estimate, a spike's square is not what the light is likely to be.
     const double square =
         std::min(level.denominators[i], sqr(static_cast<double>(level.picture.data[i])));
-    sum += (static_cast<double>(variance.data[i]) + h.blocks.common_variance * square) /
-           level.denominators[i];
+    sum += (static_cast<double>(variance.data[i]) + common * square) / level.denominators[i];
   }
   return sum;
 }

@@ -83,6 +83,7 @@ struct Point {
   bool narrow = false;
   // The picture shows so little of the scene that light traced from the lamps does not land in it.
   bool aimed = false;
+  std::optional<double> demand = {};  // instead of the case's
   // Some samples must be dropped, for one of these causes. Empty: none may be.
   std::vector<std::string> drops = {};
   std::string culprit = {};  // the plugin that is to be named for them

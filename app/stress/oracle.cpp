@@ -13,12 +13,13 @@ struct Estimate {
   double mean = 0.0, variance = 0.0;  // of the mean
 };
 
-Estimate estimate(const std::vector<double>& values, double common_variance) {
+Estimate estimate(const Blocks& blocks, size_t block) {
+  const std::vector<double>& values = blocks.values[block];
   const auto n = static_cast<double>(values.size());
   Estimate e;
   for (const double v : values) e.mean += v / n;
   for (const double v : values) e.variance += (v - e.mean) * (v - e.mean) / (n * (n - 1.0));
-  e.variance += common_variance * e.mean * e.mean;
+  e.variance += blocks.common[block] * blocks.common[block];
   return e;
 }
 
@@ -68,7 +69,7 @@ Comparison compare_means(const Blocks& blocks, std::span<const double> expected,
   const size_t skipped = blocks.values.size() - values.size();
   const double limit = student_limit(false_alarm, static_cast<double>(groups_of(blocks)) - 1.0);
   for (size_t b = 0; b < values.size(); ++b) {
-    const Estimate e = estimate(blocks.values[b + skipped], blocks.common_variance);
+    const Estimate e = estimate(blocks, b + skipped);
     judge(e.mean - values[b], limit * std::sqrt(e.variance), values[b], rounding,
           place(b, values.size()), b == 0, all);
     all.holds = all.holds && std::isfinite(e.mean);
@@ -84,8 +85,8 @@ Comparison compare_blocks(const Blocks& blocks, const Blocks& reference, double 
   all.holds = true;
   const double limit = student_limit(false_alarm, static_cast<double>(groups) - 1.0);
   for (size_t b = 0; b < blocks.values.size(); ++b) {
-    const Estimate x = estimate(blocks.values[b], blocks.common_variance);
-    const Estimate y = estimate(reference.values[b], reference.common_variance);
+    const Estimate x = estimate(blocks, b);
+    const Estimate y = estimate(reference, b);
     const double error = std::sqrt(x.variance + factor * factor * y.variance);
     judge(x.mean - factor * y.mean, limit * error, factor * y.mean, rounding,
           place(b, blocks.values.size()), b == 0, all);
@@ -97,7 +98,7 @@ Comparison compare_blocks(const Blocks& blocks, const Blocks& reference, double 
 Comparison compare_limit(const Blocks& blocks, double most, double false_alarm) {
   Comparison all;
   if (groups_of(blocks) < 2) return all;
-  const Estimate e = estimate(blocks.values.back(), blocks.common_variance);
+  const Estimate e = estimate(blocks, blocks.values.size() - 1);
   const double limit =
       student_limit(2.0 * false_alarm, static_cast<double>(groups_of(blocks)) - 1.0);
   all.where = "the whole";

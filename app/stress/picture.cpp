@@ -60,15 +60,19 @@ double Picture::seconds() const { return session_->elapsed(); }
 Blocks Picture::blocks() const {
   const GroupBlocks groups = session_->group_blocks();
   Blocks blocks;
-  blocks.common_variance = groups.common_variance;
+  blocks.common = groups.common;
   if (groups.means.empty()) {  // chains that found no light: every group is black
     const ivec2 edges = (scene_.raster_map->frame().crop_size() + (groups.edge - 1)) / groups.edge;
     blocks.values.assign(static_cast<size_t>(edges.x * edges.y) + 1,
                          std::vector<double>(group_count, 0.0));
+    blocks.common.assign(blocks.values.size(), 0.0);
     return blocks;
   }
   const size_t count = groups.means.front().size();
   blocks.values.resize(count + 1);
+  double common = 0.0;
+  for (const double block : groups.common) common += block / static_cast<double>(count);
+  blocks.common.push_back(common);
   for (const std::vector<double>& group : groups.means) {
     double whole = 0.0;
     for (size_t b = 0; b < count; ++b) {

@@ -25,7 +25,7 @@ BuiltScene build_job(const Job& job, std::vector<std::string>* log);
 // Block means of the groups of samples, which are independent, and last those of the whole.
 struct Blocks {
   std::vector<std::vector<double>> values;  // [block][group]
-  double common_variance = 0.0;             // relative, of a factor common to all groups
+  std::vector<double> common;  // [block] standard deviation of what all groups have in common
 };
 
 // What a render's record says beside the picture.

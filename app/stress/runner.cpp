@@ -262,13 +262,14 @@ void Runner::judge_statistics(const Case& c, const Point& point, const Pair& pai
     return compare_blocks(blocks, polite(c, pair, seconds).blocks, same.factor, same.rounding,
                           false_alarm_);
   };
+  const double demand = point.demand.value_or(c.demand);
   Comparison comparison;
   Blocks blocks;
   for (double samples = c.least_samples;; samples = picture.samples_per_pixel()) {
     picture.add(samples);
     blocks = picture.blocks();
     comparison = compare(blocks);
-    const bool settled = comparison.widest <= c.demand || picture.seconds() > seconds;
+    const bool settled = comparison.widest <= demand || picture.seconds() > seconds;
     if (settled || options_.stop()) break;
   }
   outcome.deviation = comparison.deviation;
@@ -281,11 +282,11 @@ void Runner::judge_statistics(const Case& c, const Point& point, const Pair& pai
   } else if (!comparison.holds) {
     outcome.verdict = Verdict::fail;
     outcome.reason = comparison.where;
-  } else if (!(comparison.widest <= c.demand)) {
+  } else if (!(comparison.widest <= demand)) {
     outcome.verdict = Verdict::undecided;
     outcome.reason =
         fmt::format("{:.2g} is the least deviation that would be found, {:.2g} is asked",
-                    comparison.widest, c.demand);
+                    comparison.widest, demand);
   } else {
     outcome.verdict = Verdict::pass;
   }

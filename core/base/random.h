@@ -37,7 +37,13 @@ enum class RandomUse : uint32_t {
   accept,
   filter,
   auxiliary,
-  test
+  test,
+  mates,
+  // A chain's second try in the same mutation.
+  mutate_again,
+  fresh_again,
+  decide_again,
+  mates_again
 };
 
 // 32-bit fixed point to float in [0, 1).

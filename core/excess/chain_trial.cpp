@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/excess/pilot.h"
+#include "core/excess/trial_sink.h"
 
 namespace pssmlt {
 namespace {
@@ -12,40 +12,6 @@ namespace {
 constexpr int chain_count = group_count;  // a group each
 // Of all chains together: on small pictures in proportion to their size.
 constexpr double mutations_a_pixel = 16.0, least_mutations = 8192.0, most_mutations = 65536.0;
-
-// What chains credited to pixels.
-class TrialSink final : public SplatSink {
- public:
-  struct Credit {
-    int group = 0, pixel = 0;
-    double value = 0.0;  // [local means]
-  };
-  TrialSink(const RasterFrame& frame, const LocalMean& mean, std::array<double, 2> scales)
-      : frame_(frame), mean_(mean), scales_(scales) {}
-  void add(int plane, const Splats& splats, const PixelCredit& camera, double weight,
-           int group) override {
-    for (const Splat& s : splats.all()) {
-      const dvec2 raster = s.from_camera ? Pilot::centre(camera, frame_) : s.raster;
-      const int pixel = pixel_at(raster);
-      if (pixel < 0) continue;
-      const double value = static_cast<double>(luminance(s.value)) / mean_.at(raster);
-      credits_.push_back({group, pixel, weight * scales_[static_cast<size_t>(plane)] * value});
-    }
-  }
-  const std::vector<Credit>& credits() const { return credits_; }
-
- private:
-  int pixel_at(const dvec2& raster) const {
-    const ivec2 at(glm::floor(raster - dvec2(frame_.crop_min)));
-    const ivec2 size = frame_.crop_size();
-    const bool inside = at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y;
-    return inside ? at.y * size.x + at.x : -1;
-  }
-  const RasterFrame& frame_;
-  const LocalMean& mean_;
-  std::array<double, 2> scales_;  // of the planes
-  std::vector<Credit> credits_;
-};
 
 // Mean over pixels of the variance between groups.
 double variance_between(std::vector<TrialSink::Credit>& credits, double pixels) {

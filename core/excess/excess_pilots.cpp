@@ -8,7 +8,7 @@ namespace {
 
 constexpr double significant = 3.0;  // [standard errors]
 constexpr PilotSize wide{.cells = 1 << 19, .least_sweeps = 4};
-constexpr PilotSize deep{.cells = 1 << 11, .least_sweeps = 64, .least_finds = 256};
+constexpr int deep_samples = 64;  // in each pixel
 
 constexpr uint64_t settling_samples = 32, settling_passes = 2;  // of a doubtful cell
 
@@ -26,40 +26,49 @@ uint64_t pilot_seed(uint64_t seed, int alternative) {
 
 // Of all alternatives' wide pilots together; then what more samples, and the deep pilots, say of
 // special cells.
-LocalMean local_mean(const SamplerContext& context, uint64_t seed, const std::vector<Pilot>& wides,
-                     const std::vector<Pilot>& deeps) {
-  Pilot all = wides.front();
-  for (size_t i = 1; i < wides.size(); ++i) all.append(wides[i]);
+LocalMean local_mean(const SamplerContext& context, const std::vector<ExcessPilots::Seeded>& wides,
+                     const std::vector<ExcessPilots::Seeded>& deeps) {
+  Pilot all = wides.front().pilot;
+  for (size_t i = 1; i < wides.size(); ++i) all.append(wides[i].pilot);
   LocalMean mean(all);
   for (uint64_t pass = 0; pass < settling_passes; ++pass) {
     const std::vector<uint32_t> doubtful = mean.doubtful(all);
     for (int i = 0; i < std::ssize(wides); ++i) {
-      const Pilot& map = wides[static_cast<size_t>(i)];
+      const auto& [map, seed] = wides[static_cast<size_t>(i)];
       const uint64_t made = map.samples() / static_cast<size_t>(map.lattice().count());
       const uint64_t begin = made + pass * settling_samples;
       context.integrator.choose(i);
-      mean.settle(run_pilot_in(context, pilot_seed(seed, i), map.lattice(), doubtful, begin,
-                               begin + settling_samples));
+      mean.settle(
+          run_pilot_in(context, seed, map.lattice(), doubtful, begin, begin + settling_samples));
     }
   }
-  for (const Pilot& pilot : deeps) mean.settle(pilot);
+  for (const ExcessPilots::Seeded& deep : deeps) mean.settle(deep.pilot);
   return mean;
 }
 
 }  // namespace
 
-ExcessPilots run_excess_pilots(const SamplerContext& context, uint64_t seed, int pilot_samples) {
+ExcessPilots run_excess_pilots(const SamplerContext& context, uint64_t seed, int pilot_samples,
+                               int deep_pixels) {
+  const PilotSize deep{.cells = deep_pixels, .least_sweeps = deep_samples, .least_finds = 256};
   Integrator& integrator = context.integrator;
   ExcessPilots result;
-  std::vector<Pilot> wides;
+  // All of them serve the same means.
+  PilotSize one_wide = wide;
+  if (integrator.alternatives() > 1) one_wide.least_sweeps = wide.least_sweeps / 2;
   for (int i = 0; i < integrator.alternatives(); ++i) {
     integrator.choose(i);
     const uint64_t own = pilot_seed(seed, i);
-    wides.push_back(run_pilot(context, own, sized(wide, pilot_samples)));
-    result.pilots.push_back(run_pilot(context, own + 1, sized(deep, pilot_samples)));
+    result.wide.push_back({run_pilot(context, own, sized(one_wide, pilot_samples)), own});
+    result.deep.push_back({run_pilot(context, own + 1, sized(deep, pilot_samples)), own + 1});
   }
-  result.mean = local_mean(context, seed, wides, result.pilots);
+  result.mean = local_mean(context, result.wide, result.deep);
   return result;
+}
+
+LocalMean find_local_mean(const SamplerContext& context, uint64_t seed, int pilot_samples) {
+  const uint64_t own = pilot_seed(seed, 0);
+  return local_mean(context, {{run_pilot(context, own, sized(wide, pilot_samples)), own}}, {});
 }
 
 bool misses_light(const PilotLight& one, std::span<const PilotLight> all) {

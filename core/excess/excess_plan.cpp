@@ -84,7 +84,7 @@ class Splitter {
 ExcessPlan plan_excess(const SamplerContext& context, uint64_t seed,
                        const ExcessPlanSettings& settings) {
   ExcessPilots found = run_excess_pilots(context, seed, settings.pilot_samples);
-  const Pilot& pilot = found.pilots.back();
+  const Pilot& pilot = found.deep.back().pilot;
   ExcessPlan plan;
   plan.mean = std::move(found.mean);
   Splitter splitter(context, mix_bits(seed + 1), settings, pilot, plan.mean);

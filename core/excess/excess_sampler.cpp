@@ -135,9 +135,8 @@ double ExcessSampler::group_scale(int plane, int group, int64_t rounds) const {
   return scale(plane, 0, rounds) * group_count;
 }
 
-// b scales no more than the part of the light that is cut off.
 double ExcessSampler::scale_relative_variance() const {
-  return split() ? chains_.scale_relative_variance() * sqr(excess()) : 0.0;
+  return split() ? chains_.scale_relative_variance() : 0.0;
 }
 
 // Without a split the pilot's finds stand for what is known of the light.

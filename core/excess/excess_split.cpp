@@ -21,7 +21,7 @@ RelativePilot::RelativePilot(const Pilot& pilot, const LocalMean& mean)
       splats_.push_back({cell, static_cast<float>(value)});
     }
     sample.end = splats_.size();
-    sample.half = pilot.sample(i).half;
+    sample.half = pilot.sample(i).half();
     light_ += sample.sum / static_cast<double>(pilot.samples());
     light_squares_ += sqr(sample.sum) / static_cast<double>(pilot.samples());
     samples_.push_back(sample);
@@ -36,11 +36,12 @@ double RelativePilot::light_error() const {
 RelativePilot::Variances RelativePilot::variances(double threshold, double stickiness) const {
   Variances v;
   std::vector<std::array<double, 2>> halves(cells_);
-  double squares = 0.0, visits = 0.0;
+  double squares = 0.0, fourths = 0.0, visits = 0.0;
   size_t at = 0;
   for (const Sample& s : samples_) {
     const double kept = s.sum > threshold ? threshold / s.sum : 1.0;
     squares += kept * kept * s.sum_squares;
+    fourths += sqr(kept * kept * s.sum_squares);
     for (; at < s.end; ++at) {
       halves[splats_[at].cell][s.half] += kept * static_cast<double>(splats_[at].value);
     }
@@ -55,6 +56,7 @@ RelativePilot::Variances RelativePilot::variances(double threshold, double stick
   for (const auto& [a, b] : halves) differences += sqr(a - b);
   // Halves are sums of n / (2 cells) samples.
   v.below = std::max(differences / n, 1e-3 * squares / n);
+  v.below_error = std::sqrt(fourths) / n;
   v.excess /= n;
   v.above = stickiness * v.excess * visits / n;
   return v;
@@ -62,9 +64,11 @@ RelativePilot::Variances RelativePilot::variances(double threshold, double stick
 
 std::vector<RelativePilot::Above> RelativePilot::above(double threshold) const {
   std::vector<Above> all;
-  for (const Sample& s : samples_) {
+  for (size_t i = 0; i < samples_.size(); ++i) {
+    const Sample& s = samples_[i];
     if (!(s.sum > threshold)) continue;
-    all.push_back({s.sum - threshold, sqr(1.0 - threshold / s.sum) * s.sum_squares});
+    const double kept = threshold / s.sum;
+    all.push_back({s.sum - threshold, (1.0 - kept * kept) * s.sum_squares, i});
   }
   return all;
 }

@@ -24,10 +24,11 @@ class RelativePilot {
   double light() const { return light_; }
   double light_error() const;
 
-  // What the samples above T are worth above it [local means], and the sum of the squares of what
-  // it puts into pixels.
+  // What the samples above T are worth above it [local means], and how much that adds to the sum of
+  // the squares of what they put into pixels.
   struct Above {
     double value = 0.0, squares = 0.0;
+    size_t sample = 0;  // of the pilot
   };
   std::vector<Above> above(double threshold) const;
   // At a given T, relative to the local mean and averaged over the picture. V1 comes from the
@@ -36,6 +37,7 @@ class RelativePilot {
   // chain are worth one independent sample of what it follows.
   struct Variances {
     double below = 0.0, above = 0.0;
+    double below_error = 0.0;   // standard error of V1 by the largest of its squares
     double excess = 0.0;        // mean of what is cut off [local means]
     uint64_t contributing = 0;  // samples above T
     double total() const { return sqr(std::sqrt(below) + std::sqrt(above)); }

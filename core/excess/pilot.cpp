@@ -9,15 +9,14 @@
 #include "core/scene/scene.h"
 
 namespace pssmlt {
-namespace {
-
-constexpr size_t cells_a_unit = 256;
-constexpr int most_times = 8;
 
 class PilotSweeps final : public SobolSweeps {
  public:
   PilotSweeps(const SamplerContext& context, uint64_t seed) : SobolSweeps(nullptr, 1.0, seed) {
     start(context);
+  }
+  bool take(const ivec2& pixel, uint64_t sweep, Worker& worker) const {
+    return evaluate(pixel, sweep, worker);
   }
   void run_cells(std::span<const uint32_t> cells, uint64_t begin, uint64_t end, Worker& worker,
                  Pilot& pilot) const {
@@ -25,14 +24,19 @@ class PilotSweeps final : public SobolSweeps {
     for (const uint32_t cell : cells) {
       for (uint64_t sweep = begin; sweep < end; ++sweep) {
         // A dropped sample counts as one without light.
-        (void)evaluate(pilot.lattice().pixel(cell), sweep, worker);
-        pilot.add(worker.splats, worker.sample.credit(), cell, static_cast<uint32_t>(sweep % 2));
+        (void)take(pilot.lattice().pixel(cell), sweep, worker);
+        pilot.add(worker.splats, worker.sample.credit(), cell, static_cast<uint32_t>(sweep));
       }
     }
     const RayCounters now = ray_counters();
     pilot.add_rays(static_cast<double>(now.nearest - before.nearest + now.shadow - before.shadow));
   }
 };
+
+namespace {
+
+constexpr size_t cells_a_unit = 256;
+constexpr int most_times = 8;
 
 void run_sweeps(const SamplerContext& context, const PilotSweeps& sweeps,
                 std::span<const uint32_t> cells, uint64_t begin, uint64_t end, Pilot& all) {
@@ -72,9 +76,9 @@ dvec2 Pilot::centre(const PixelCredit& credit, const RasterFrame& frame) {
   return dvec2(frame.crop_min) + dvec2(credit.pixel % width, credit.pixel / width) + 0.5;
 }
 
-void Pilot::add(const Splats& splats, const PixelCredit& camera, uint32_t cell, uint32_t half) {
+void Pilot::add(const Splats& splats, const PixelCredit& camera, uint32_t cell, uint32_t sweep) {
   if (!splats.empty()) ++finds_;
-  PilotSample sample{0, cell, half, 0.f};
+  PilotSample sample{0, cell, sweep, 0.f};
   for (const Splat& s : splats.all()) {
     const dvec2 raster = s.from_camera ? centre(camera, frame_) : s.raster;
     const float value = luminance(s.value);
@@ -94,6 +98,15 @@ void Pilot::append(const Pilot& other) {
   }
   finds_ += other.finds_;
   rays_ += other.rays_;
+}
+
+PilotSamples::PilotSamples(const SamplerContext& context, uint64_t seed)
+    : sweeps_(std::make_unique<PilotSweeps>(context, seed)) {}
+PilotSamples::~PilotSamples() = default;
+
+bool PilotSamples::evaluate(const Pilot& pilot, size_t i, Worker& worker) const {
+  const PilotSample& sample = pilot.sample(i);
+  return sweeps_->take(pilot.lattice().pixel(sample.cell), sample.sweep, worker);
 }
 
 Pilot run_pilot(const SamplerContext& context, uint64_t seed, const PilotSize& size) {

@@ -1,6 +1,7 @@
 // Samples before the render, for what has to be known of the picture in advance.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -52,8 +53,10 @@ struct PilotSplat {
 struct PilotSample {
   size_t end = 0;      // one past its last splat
   uint32_t cell = 0;   // of the lattice
-  uint32_t half = 0;   // 0 or 1: samples of different halves are independent
+  uint32_t sweep = 0;  // of the cell's samples
   float camera = 0.f;  // luminance of its camera splats together [W/(m^2 sr)]
+  // 0 or 1: samples of different halves are independent.
+  uint32_t half() const { return sweep % 2; }
 };
 
 // The splats of many samples, in their order: the same number of each half in every cell.
@@ -63,7 +66,7 @@ class Pilot {
   Pilot(const RasterFrame& frame, const PilotLattice& lattice) : frame_(frame), lattice_(lattice) {}
   // Where camera splats of this credit land [pixels]; the window's middle if they land nowhere.
   static dvec2 centre(const PixelCredit& credit, const RasterFrame& frame);
-  void add(const Splats& splats, const PixelCredit& camera, uint32_t cell, uint32_t half);
+  void add(const Splats& splats, const PixelCredit& camera, uint32_t cell, uint32_t sweep);
   void append(const Pilot& other);
   const RasterFrame& frame() const { return frame_; }
   const PilotLattice& lattice() const { return lattice_; }
@@ -86,6 +89,18 @@ class Pilot {
   std::vector<PilotSample> samples_;
   size_t finds_ = 0;
   double rays_ = 0.0;
+};
+
+// Takes samples of a pilot again, that run_pilot() took with this seed.
+class PilotSamples {
+ public:
+  PilotSamples(const SamplerContext& context, uint64_t seed);
+  ~PilotSamples();
+  // Leaves numbers and splats of the pilot's sample i in the worker; false if it is dropped.
+  bool evaluate(const Pilot& pilot, size_t i, Worker& worker) const;
+
+ private:
+  std::unique_ptr<class PilotSweeps> sweeps_;
 };
 
 // How many samples, and where.

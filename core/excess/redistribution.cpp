@@ -39,10 +39,7 @@ class RestSource final : public NumberSource {
 
 }  // namespace
 
-void Redistribution::start(const SamplerContext& context, const ChainTarget& target, int length,
-                           double deposit) {
-  length_ = length;
-  deposit_ = deposit;
+void Redistribution::start(const SamplerContext& context, const ChainTarget& target) {
   target_ = &target;
   size_ = context.raster_map.frame().crop_size();
   set_kernels(walk_, settings_.kernels, size_);
@@ -62,7 +59,8 @@ void Redistribution::start(const SamplerContext& context, const ChainTarget& tar
 
 // How many, with which probability any.
 int Redistribution::chains(double value, double u, double& probability) const {
-  const double wanted = std::min(value / deposit_, static_cast<double>(settings_.most_chains));
+  const double wanted =
+      std::min(value / deposit_, static_cast<double>(settings_.chains_of(length_)));
   probability = std::min(1.0, wanted);
   if (wanted < 1.0) return u < wanted ? 1 : 0;
   return static_cast<int>(std::lround(wanted));

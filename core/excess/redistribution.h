@@ -2,6 +2,7 @@
 // an independent sample found is spread by short Markov chains that start from it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -13,7 +14,11 @@ namespace pssmlt {
 struct RedistributionSettings {
   StepMix mix;
   KernelChoice kernels;
-  int most_chains = 16;  // from one sample
+  int most_chains = 0;  // from one sample; 0: as many as make most_mutations
+  static constexpr int most_mutations = 8192;
+  int chains_of(int length) const {
+    return most_chains > 0 ? most_chains : std::max(1, most_mutations / length);
+  }
 };
 
 // A sample whose target is worth e gives e / deposit chains on average, never more than
@@ -25,9 +30,13 @@ struct RedistributionSettings {
 class Redistribution {
  public:
   explicit Redistribution(const RedistributionSettings& settings) : settings_(settings) {}
-  // length: mutations of a chain. deposit: the target's value at its start that is worth one chain.
   // Finds out which numbers the integrator reads at all.
-  void start(const SamplerContext& context, const ChainTarget& target, int length, double deposit);
+  void start(const SamplerContext& context, const ChainTarget& target);
+  // length: mutations of a chain. deposit: the target's value at its start that is worth one chain.
+  void set(int length, double deposit) {
+    length_ = length;
+    deposit_ = deposit;
+  }
   // Spreads the sample in worker.sample, of a pixel of its own (PrimarySampleOwner::set_pixel), by
   // chains over the whole picture; `key` names its random numbers.
   // `value`: the target's there.

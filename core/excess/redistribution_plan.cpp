@@ -7,24 +7,34 @@
 #include <cmath>
 #include <span>
 
+#include "core/excess/excess_limit.h"
+
 namespace pssmlt {
 namespace {
 
-// Chains of this length lower the variance of what they spread by that much: measured (from
-// door-ajar, mirror-maze, glass-caustics; docs/results.md), since what they reach is not known in
-// advance.
-struct Spread {
-  int length;
-  double gain;
-};
-constexpr std::array<Spread, 3> spreads = {{{20, 5.0}, {100, 6.0}, {500, 7.0}}};
+// The limit for which chains are tried, where none is asked for [local means].
+constexpr double trial_threshold = 4.0;
+// Limits that are considered [local means]: with larger ones too much stays as it is, however
+// little the pilot shows of that (docs/results.md).
+constexpr double largest_threshold = 16.0;
+constexpr int deep_pixels = 512;  // of the pilots that tell variances
 
-double gain_of(int length) {
-  double gain = 1.0;
-  for (const Spread& s : spreads) {
-    if (length >= s.length) gain = s.gain;
+// A variance that few samples make is likely to be larger than it looks: so many standard errors
+// are added.
+constexpr double caution = 2.0;
+
+double cautious(const RelativePilot::Variances& v) { return v.below + caution * v.below_error; }
+
+// Of samples as they are. What is bright is so seldom met that the deep pilot may know nothing of
+// it.
+double plain_variance(const RelativePilot& deep, const RelativePilot& wide) {
+  double squares = 0.0, fourths = 0.0;
+  for (const RelativePilot::Above& a : wide.above(largest_threshold)) {
+    squares += a.squares;
+    fourths += a.squares * a.squares;
   }
-  return gain;
+  return cautious(deep.variances(largest_threshold, 1.0)) +
+         (squares + caution * std::sqrt(fourths)) / static_cast<double>(wide.samples());
 }
 
 std::vector<PilotLight> lights(const std::vector<RedistributionOption>& options) {
@@ -34,44 +44,67 @@ std::vector<PilotLight> lights(const std::vector<RedistributionOption>& options)
 }
 
 // What samples above a limit leave as noise if chains of this length and number spread them. A
-// sample worth less than a chain's deposit gives one seldom, which then carries more.
-void spread(std::span<const RelativePilot::Above> above, double samples,
-            RedistributionOption& option) {
+// sample worth less than a chain's deposit gives one seldom, which then carries more; one worth
+// more gives several.
+void spread(std::span<const RelativePilot::Above> above, double samples, int most_chains,
+            const SpreadRemainder& remainder, RedistributionOption& option) {
   option.deposit = option.excess * option.length / option.mutations;
-  double squares = 0.0;
+  double squares = 0.0, fourths = 0.0;
   for (const RelativePilot::Above& a : above) {
-    squares += a.squares * std::max(1.0, option.deposit / a.value);
+    const double chains = a.value / option.deposit;
+    const double several = std::clamp(chains, 1.0, static_cast<double>(most_chains));
+    const double left =
+        a.squares * std::max(1.0, 1.0 / chains) * remainder.at(option.length * several);
+    squares += left;
+    fourths += left * left;
   }
-  option.variance += squares / samples / gain_of(option.length);
+  option.variance += (squares + caution * std::sqrt(fourths)) / samples;
+}
+
+// Of the integrator that is chosen.
+SpreadTrial try_chains(const SamplerContext& context, uint64_t seed,
+                       const RedistributionPlanSettings& settings, const ExcessPilots::Seeded& wide,
+                       const LocalMean& mean, const RelativePilot& relative) {
+  // Nothing to be decided.
+  if (settings.mutations == 0.0) return {};
+  const double threshold = settings.threshold > 0.0 ? settings.threshold : trial_threshold;
+  const ExcessLimit limit{&mean, threshold};
+  const AboveLimit target(limit);
+  return try_spreading(context, mix_bits(seed + 0x73707264u), wide.pilot, wide.seed, mean, target,
+                       relative.above(threshold), settings.chains);
 }
 
 }  // namespace
 
-void choose_redistribution(const RelativePilot& pilot, const RedistributionPlanSettings& settings,
+void choose_redistribution(const RelativePilot& deep, const RelativePilot& wide,
+                           const RedistributionPlanSettings& settings, const SpreadTrial& trial,
                            RedistributionOption& option) {
-  option.plain = option.variance = pilot.variances(static_cast<double>(infinity), 1.0).below;
+  option.mutation_rays = std::max(trial.rays, option.rays);
+  option.plain = option.variance = plain_variance(deep, wide);
   bool asked = settings.mutations > 0.0;  // done even if it does not pay
   const auto consider = [&](RedistributionOption one, std::span<const RelativePilot::Above> above) {
-    spread(above, static_cast<double>(pilot.samples()), one);
+    spread(above, static_cast<double>(wide.samples()), settings.chains.chains_of(one.length),
+           trial.remainder, one);
     if (asked || one.effort() < option.effort()) option = one;
     asked = false;
   };
   const bool free = !(settings.threshold > 0.0);
-  const double first = free ? 1.0 : settings.threshold, last = free ? 64.0 : first;
+  const double first = free ? 1.0 : settings.threshold, last = free ? largest_threshold : first;
   for (double threshold = first; threshold <= last && settings.mutations != 0.0; threshold *= 2.0) {
-    const std::vector<RelativePilot::Above> above = pilot.above(threshold);
+    const std::vector<RelativePilot::Above> above = wide.above(threshold);
     if (above.empty()) break;
-    const RelativePilot::Variances v = pilot.variances(threshold, 1.0);
+    const double below = cautious(deep.variances(threshold, 1.0));
     RedistributionOption one = option;
     one.threshold = threshold;
-    one.excess = v.excess;
-    for (const Spread& s : spreads) {
-      one.length = settings.length > 0 ? settings.length : s.length;
-      for (double mutations = 1.0 / 16.0; mutations <= 1.0; mutations *= 2.0) {
-        one.mutations = settings.mutations > 0.0 ? settings.mutations : mutations;
-        one.variance = v.below;
-        consider(one, above);
-      }
+    one.length = settings.length;
+    one.excess = 0.0;
+    for (const RelativePilot::Above& a : above) {
+      one.excess += a.value / static_cast<double>(wide.samples());
+    }
+    for (double mutations = 1.0 / 16.0; mutations <= 1.0; mutations *= 2.0) {
+      one.mutations = settings.mutations > 0.0 ? settings.mutations : mutations;
+      one.variance = below;
+      consider(one, above);
     }
   }
 }
@@ -88,23 +121,25 @@ size_t best_option(const std::vector<RedistributionOption>& options) {
 
 RedistributionPlan plan_redistribution(const SamplerContext& context, uint64_t seed,
                                        const RedistributionPlanSettings& settings) {
-  ExcessPilots found = run_excess_pilots(context, seed, settings.pilot_samples);
+  ExcessPilots found = run_excess_pilots(context, seed, settings.pilot_samples, deep_pixels);
   RedistributionPlan plan;
-  plan.mean = std::move(found.mean);
-  for (size_t i = 0; i < found.pilots.size(); ++i) {
-    const Pilot& pilot = found.pilots[i];
-    const RelativePilot relative(pilot, plan.mean);
+  for (size_t i = 0; i < found.wide.size(); ++i) {
+    const RelativePilot wide(found.wide[i].pilot, found.mean);
+    const RelativePilot deep(found.deep[i].pilot, found.mean);
     RedistributionOption o;
     o.integrator = context.integrator.alternative_name(static_cast<int>(i));
-    o.light = {relative.light(), relative.light_error()};
-    o.rays = pilot.rays() / static_cast<double>(std::max<size_t>(1, pilot.samples()));
-    choose_redistribution(relative, settings, o);
+    o.light = {wide.light(), wide.light_error()};
+    o.rays = found.wide[i].pilot.rays() / static_cast<double>(std::max<size_t>(1, wide.samples()));
+    context.integrator.choose(static_cast<int>(i));
+    const SpreadTrial trial = try_chains(context, seed, settings, found.wide[i], found.mean, wide);
+    choose_redistribution(deep, wide, settings, trial, o);
     plan.options.push_back(o);
   }
   plan.chosen = best_option(plan.options);
   context.integrator.choose(static_cast<int>(plan.chosen));
-  plan.samples = found.pilots[plan.chosen].samples();
-  plan.finds = found.pilots[plan.chosen].finds();
+  plan.samples = found.deep[plan.chosen].pilot.samples();
+  plan.finds = found.deep[plan.chosen].pilot.finds();
+  plan.mean = std::move(found.mean);
   return plan;
 }
 

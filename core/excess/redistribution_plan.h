@@ -7,22 +7,25 @@
 
 #include "core/excess/excess_pilots.h"
 #include "core/excess/excess_split.h"
+#include "core/excess/spread_trial.h"
 
 namespace pssmlt {
 
-// 0: chosen.
+// 0, but for the length: chosen.
 struct RedistributionPlanSettings {
   int pilot_samples = 0;    // as run_excess_pilots() takes them
   double threshold = 0.0;   // [local means]
   double mutations = -1.0;  // for each sample; below 0: chosen
-  int length = 0;           // of a chain [mutations]
+  int length = 500;         // of a chain [mutations]
+  RedistributionSettings chains;
 };
 
-// One of the integrator's alternatives. Light and variances are relative to the local mean.
+// One of the integrator's alternatives. Light and variances are relative to the local mean; the
+// variances are two standard errors above what the pilot shows.
 struct RedistributionOption {
   std::string integrator;
   PilotLight light;
-  double rays = 0.0;                                 // of a sample
+  double rays = 0.0, mutation_rays = 0.0;            // of a sample, of a mutation
   double plain = 0.0;                                // variance of a sample without chains
   double threshold = static_cast<double>(infinity);  // [local means]
   double mutations = 0.0;                            // for each sample
@@ -31,7 +34,7 @@ struct RedistributionOption {
   double variance = 0.0;  // of a sample with chains, expected
   double excess = 0.0;    // mean of what is above the limit
   // Rays times variance: what is least is best.
-  double effort() const { return std::max(rays, 1.0) * (1.0 + mutations) * variance; }
+  double effort() const { return (std::max(rays, 1.0) + mutations * mutation_rays) * variance; }
 };
 
 struct RedistributionPlan {
@@ -49,8 +52,11 @@ struct RedistributionPlan {
 // that another one found. A function of the seed.
 RedistributionPlan plan_redistribution(const SamplerContext& context, uint64_t seed,
                                        const RedistributionPlanSettings& settings);
-// Limit, mutations and length with the least effort.
-void choose_redistribution(const RelativePilot& pilot, const RedistributionPlanSettings& settings,
+// Limit and mutations with the least effort.
+// `deep`: many samples of a pixel, which tell what Sobol' points leave of what is not bright;
+// `wide`: samples everywhere, which tell what is bright.
+void choose_redistribution(const RelativePilot& deep, const RelativePilot& wide,
+                           const RedistributionPlanSettings& settings, const SpreadTrial& trial,
                            RedistributionOption& option);
 size_t best_option(const std::vector<RedistributionOption>& options);
 std::string to_string(const RedistributionOption& option);  // for --verbose

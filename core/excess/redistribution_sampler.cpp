@@ -24,17 +24,20 @@ RedistributionSamplerSettings read_redistribution(Parameters& p) {
                "pilot");
   s.plan.mutations = p.number("mutations", -1.f, "mutations",
                               "for each sample, on average; below 0: chosen by the pilot");
-  s.plan.length = p.integer("chainlength", 0, "mutations", "of a chain; 0: chosen by the pilot");
-  s.chains.most_chains = p.integer("mostchains", 16, "", "chains from one sample");
-  s.chains.mix = read_step_mix(p, 0.f);
-  s.chains.kernels = read_kernels(p);
+  s.plan.length = p.integer("chainlength", 500, "mutations", "of a chain");
+  s.plan.chains.most_chains = p.integer(
+      "mostchains", 0, "", "chains from one sample; 0: as many as make 8192 mutations together");
+  s.plan.chains.mix = read_step_mix(p, 0.f);
+  s.plan.chains.kernels = read_kernels(p);
   s.seed = p.integer("seed", 0, "", "another seed gives another picture");
   if (s.samples < 1) p.fail("pixelsamples", "\"pixelsamples\" must be at least 1");
   if (s.plan.pilot_samples < 0) p.fail("pilotsamples", "\"pilotsamples\" must not be negative");
   if (!(s.plan.threshold >= 0.0)) p.fail("threshold", "\"threshold\" must not be negative");
   if (!(s.plan.mutations <= 100.0)) p.fail("mutations", "\"mutations\" must be at most 100");
-  if (s.plan.length < 0) p.fail("chainlength", "\"chainlength\" must not be negative");
-  if (s.chains.most_chains < 1) p.fail("mostchains", "\"mostchains\" must be positive");
+  if (s.plan.length < 1) p.fail("chainlength", "\"chainlength\" must be positive");
+  if (s.plan.chains.most_chains < 0) {
+    p.fail("mostchains", "\"mostchains\" must not be negative");
+  }
   return s;
 }
 
@@ -45,7 +48,7 @@ RedistributionSampler::RedistributionSampler(const char* name,
       settings_(s),
       use_(chains),
       above_(limit_),
-      chains_(s.chains) {}
+      chains_(s.plan.chains) {}
 
 void RedistributionSampler::start(const SamplerContext& context) {
   SobolSweeps::start(context);
@@ -71,7 +74,8 @@ void RedistributionSampler::plan(const SamplerContext& context) {
   const RedistributionOption& o = plan_.option();
   limit_ = {&plan_.mean, o.threshold};
   if (plan_.chains()) {
-    chains_.start(context, above_, o.length, o.deposit);
+    chains_.start(context, above_);
+    chains_.set(o.length, o.deposit);
     // With the sample where a chain starts, which is evaluated again.
     work_ += o.mutations * (1.0 + 1.0 / o.length);
   }

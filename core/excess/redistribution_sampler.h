@@ -14,7 +14,6 @@
 namespace pssmlt {
 
 struct RedistributionSamplerSettings {
-  RedistributionSettings chains;
   RedistributionPlanSettings plan;
   int samples = 16, seed = 0;
 };

@@ -48,6 +48,40 @@ struct WalkTally {
   }
 };
 
+// A chain on its way.
+struct Walk {
+  double pending = 0.0;  // credit of the current state not handed on yet
+  uint64_t stuck = 0;    // mutations since it became current
+};
+
+// What was decided of the proposal, which is worth so much: its credit, and the change of state.
+template <typename Host>
+void conclude(Host& host, const Transition& t, double worth, Walk& walk, WalkTally& tally) {
+  WalkTally::Kind& kind = tally.kinds[static_cast<size_t>(t.kind)];
+  ++kind.proposed;
+  if (!t.accepted) {
+    if (t.acceptance > 0.0) host.credit_proposed(t.acceptance * worth);
+    return;
+  }
+  ++kind.accepted;
+  if (walk.pending > 0.0) host.credit_current(walk.pending);
+  walk = {t.acceptance * worth, 0};
+  host.accept();
+}
+
+// The second proposal of a mutation.
+template <typename Host>
+void try_again(Walker& walker, PrimarySampleOwner& owner, Host& host, const CreditRule& rule,
+               Walk& walk, WalkTally& tally) {
+  const double current = walker.value();
+  walker.propose_again();
+  const double proposed = host.evaluate(owner.sample());
+  const double worth = proposed > 0.0 ? rule.visit(proposed) : 0.0;
+  const Transition t = walker.decide_again(proposed);
+  walk.pending += (1.0 - t.acceptance) * rule.visit(current);
+  conclude(host, t, worth, walk, tally);
+}
+
 // Runs `count` mutations of the chain in `walker`; `stuck` counts those since its state changed.
 // Host has
 //   double evaluate(PrimarySample&)         target at the proposal, >= 0, finite; remembers what it
@@ -56,10 +90,12 @@ struct WalkTally {
 //   void credit_proposed(double weight)     same for the proposal
 //   void credit_large(double weight)        same for the proposal, to the large steps' sum
 //   void accept()                           the proposal becomes the current state
+// Where a rejected step leads to a second try, its outcome alone decides what the current state
+// gets: in the mean over rejections that is its part.
 template <typename Host>
 void advance(Walker& walker, PrimarySampleOwner& owner, Host& host, const CreditRule& rule,
              uint64_t count, uint64_t& stuck, WalkTally& tally) {
-  double pending = 0.0;  // credit of the current state not handed on yet
+  Walk walk{0.0, stuck};
   for (uint64_t m = 0; m < count; ++m) {
     const double current = walker.value();
     const bool large = walker.propose().kind == StepKind::large;
@@ -68,22 +104,16 @@ void advance(Walker& walker, PrimarySampleOwner& owner, Host& host, const Credit
     if (large) tally.large_values.add(proposed);
     if (large && worth > 0.0 && rule.credits_large_steps()) host.credit_large(worth);
     const Transition t = walker.decide(proposed);
-    WalkTally::Kind& kind = tally.kinds[static_cast<size_t>(t.kind)];
-    ++kind.proposed;
-    pending += (1.0 - t.acceptance) * rule.visit(current);
-    ++stuck;
-    tally.longest_stuck = std::max(tally.longest_stuck, stuck);
-    if (!t.accepted) {
-      if (t.acceptance > 0.0) host.credit_proposed(t.acceptance * worth);
-      continue;
+    ++walk.stuck;
+    tally.longest_stuck = std::max(tally.longest_stuck, walk.stuck);
+    if (!walker.gives_second_tries(t.kind)) {
+      walk.pending += (1.0 - t.acceptance) * rule.visit(current);
     }
-    ++kind.accepted;
-    if (pending > 0.0) host.credit_current(pending);
-    pending = t.acceptance * worth;
-    host.accept();
-    stuck = 0;
+    conclude(host, t, worth, walk, tally);
+    if (walker.tries_again()) try_again(walker, owner, host, rule, walk, tally);
   }
-  if (pending > 0.0) host.credit_current(pending);
+  if (walk.pending > 0.0) host.credit_current(walk.pending);
+  stuck = walk.stuck;
 }
 
 }  // namespace pssmlt

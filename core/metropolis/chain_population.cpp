@@ -9,6 +9,7 @@
 #include "core/base/log.h"
 #include "core/metropolis/candidate_source.h"
 #include "core/metropolis/resampling.h"
+#include "core/metropolis/step_tuning.h"
 #include "core/render/error_estimate.h"
 #include "core/sampling/evaluator.h"
 #include "core/sampling/replay.h"
@@ -22,6 +23,7 @@ constexpr std::array<std::string_view, 2> weight_names = {"expected", "kelemen"}
 constexpr int candidates_a_unit = 1024;
 constexpr int64_t most_mutations_a_round = 1 << 18;
 constexpr int64_t least_stretch = 16;  // mutations of a chain in a round
+constexpr int least_chains_for_ensembles = 3 * group_count;
 
 }  // namespace
 
@@ -41,8 +43,31 @@ PopulationSettings read_population(Parameters& p, int bootstrap_samples) {
   s.kelemen_weights = p.choice("weights", "expected", weight_names,
                                "credit by expected value, or Kelemen's, which weigh large steps "
                                "as independent samples too") == "kelemen";
+  s.second_tries = p.flag("delayedrejection", false,
+                          "a rejected large step is followed by a small one in the same mutation "
+                          "(Rioux-Lavoie et al. 2020)");
+  s.tune_steps =
+      p.flag("tunesteps", false,
+             "the scales of small steps of each kind are tuned before the render, to the "
+             "acceptance that is best for normal densities of their dimension");
+  s.mix.ensemble = p.number("ensembleprobability", 0.f, "",
+                            "of small steps: by the difference of two other chains' states "
+                            "(ter Braak 2006)");
+  s.ensemble_scale =
+      p.number("ensemblescale", 0.5f, "", "of that difference; one step in ten adds all of it");
   s.seed = static_cast<uint32_t>(p.integer("seed", 0, "", "another seed gives another picture"));
   if (s.chains < 0 || s.chains > 1 << 24) p.fail("chains", "\"chains\" must lie in [0, 2^24]");
+  const double small = s.mix.film + s.mix.stream + s.mix.range + s.mix.ensemble;
+  if (!(s.mix.ensemble >= 0.0 && small <= 1.0 + 1e-6)) {
+    p.fail("ensembleprobability",
+           "\"ensembleprobability\" must not be negative nor exceed 1 with those of other steps");
+  }
+  if (s.mix.ensemble > 0.0 && s.chains != 0 && s.chains < least_chains_for_ensembles) {
+    p.fail("chains", "\"ensembleprobability\" needs at least 96 \"chains\", three in a group");
+  }
+  if (!(s.ensemble_scale >= 0.0 && s.ensemble_scale <= 1.0)) {
+    p.fail("ensemblescale", "\"ensemblescale\" must lie in [0, 1]");
+  }
   if (s.bootstrap_samples < std::min(bootstrap_samples, 1)) {
     p.fail("bootstrapsamples", "\"bootstrapsamples\" must be positive");
   }
@@ -60,6 +85,11 @@ void ChainPopulation::start(const SamplerContext& context, const ChainTarget& ta
   bootstrap(context);
   if (bootstrap_.sum > 0.0) start_chains(context);
   candidates_ = {};
+  factors_ = as_chosen;
+  if (settings_.tune_steps && !empty()) {
+    factors_ = tuned_steps(context, target, chains_, *chooser_, settings_.kernels, walk_);
+    set_kernels(walk_, settings_.kernels, context.raster_map.frame().crop_size(), factors_);
+  }
 }
 
 // Chains, round length and film steps: functions of the settings and the picture alone.
@@ -87,6 +117,8 @@ void ChainPopulation::plan(const RasterFrame& frame, double mutations_a_round) {
   }
 
   set_kernels(walk_, settings_.kernels, frame.crop_size());
+  walk_.second_tries = settings_.second_tries;
+  walk_.ensemble_scale = settings_.ensemble_scale;
 }
 
 void ChainPopulation::bootstrap(const SamplerContext& context) {
@@ -155,11 +187,13 @@ void ChainPopulation::run(int64_t round, int unit, int plane, SplatSink& sink, W
   Splats current;
   current.keep_tags(worker.splats.keeps_tags());
   WalkTally tally;
+  Mates room;
   const auto mutation = static_cast<uint64_t>(round) * static_cast<uint64_t>(steps_);
   for (int c = unit * chains_a_unit; c < (unit + 1) * chains_a_unit; ++c) {
     Chain& chain = chains_[static_cast<size_t>(c)];
     ChainHost host(*target_, sink, plane, worker, current, group(c));
     host.restore(chain);
+    walker.set_mates(mates(c, room));
     walker.load(static_cast<uint32_t>(c), mutation, chain.numbers, chain.credit.pixel >= 0,
                 chain.value);
     advance(walker, worker.sample, host, rule, static_cast<uint64_t>(steps_), chain.stuck, tally);
@@ -176,6 +210,17 @@ void ChainPopulation::run(int64_t round, int unit, int plane, SplatSink& sink, W
 int ChainPopulation::group(int chain) const {
   const int stretch = static_cast<int>(int64_t{chain} * group_count / chain_count_);
   return stretch < group_count / 2 ? 2 * stretch : 2 * stretch - (group_count - 1);
+}
+
+std::span<const StoredNumbers* const> ChainPopulation::mates(int chain, Mates& room) const {
+  size_t count = 0;
+  const int first = chain / chains_a_unit * chains_a_unit;
+  for (int c = first; c < first + chains_a_unit; ++c) {
+    if (c != chain && group(c) == group(chain)) {
+      room[count++] = &chains_[static_cast<size_t>(c)].numbers;
+    }
+  }
+  return {room.data(), count};
 }
 
 double ChainPopulation::large_scale(int64_t rounds) const {

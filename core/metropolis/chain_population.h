@@ -2,8 +2,10 @@
 // chains in primary sample space have in common, whatever their chains follow.
 #pragma once
 
+#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,10 +22,13 @@ struct PopulationSettings {
   int chains = 0;  // 0: by the picture's size
   int bootstrap_samples = 100000;
   bool refine_b = true, kelemen_weights = false;
+  bool second_tries = false, tune_steps = false;
+  double ensemble_scale = 0.5;  // WalkSettings::ensemble_scale
   uint64_t seed = 0;
 };
 // "chains", "bootstrapsamples" with this default (0 leaves the number to the sampler), "b",
-// "weights" and those of steps and kernels.
+// "weights", "delayedrejection", "tunesteps", "ensembleprobability", "ensemblescale" and those of
+// steps and kernels.
 PopulationSettings read_population(Parameters& parameters, int bootstrap_samples);
 
 // Sampler's functions of the same names do what is said there. The chains' credits go to the plane
@@ -73,6 +78,9 @@ class ChainPopulation {
   void start_chains(const SamplerContext& context);
   int group(int chain) const;
   void start_chain(int chain, uint32_t candidate, Worker& worker);
+  // Of the same unit and group: chains of other groups must stay independent of it.
+  using Mates = std::array<const StoredNumbers*, chains_a_unit>;
+  std::span<const StoredNumbers* const> mates(int chain, Mates& room) const;
   WalkTally total() const;
   MeanTally normalisation() const;  // b with its error
 
@@ -80,6 +88,7 @@ class ChainPopulation {
   PopulationSettings settings_;
   const ChainTarget* target_ = nullptr;
   WalkSettings walk_;
+  StepFactors factors_ = as_chosen;  // of the kernels' scales
   std::optional<StepChooser> chooser_;
   double pixels_ = 1.0;
   int chain_count_ = 0;

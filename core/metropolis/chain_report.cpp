@@ -83,6 +83,9 @@ void ChainPopulation::report(nlohmann::json& statistics) const {
     acceptance[std::string(to_string(static_cast<StepKind>(k)))] = {
         {"mutations", kind.proposed},
         {"rate", static_cast<double>(kind.accepted) / static_cast<double>(kind.proposed)}};
+    if (settings_.tune_steps) {
+      acceptance[std::string(to_string(static_cast<StepKind>(k)))]["step_scale"] = factors_[k];
+    }
   }
   statistics["acceptance_rate"] =
       mutations > 0 ? static_cast<double>(accepted) / static_cast<double>(mutations) : 0.0;

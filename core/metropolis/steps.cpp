@@ -23,7 +23,7 @@ uint32_t geometric(uint32_t bits16) {
 
 std::string_view to_string(StepKind kind) {
   constexpr std::array<std::string_view, step_kinds> names = {
-      "large", "all", "film", "camera", "light", "connection", "shared", "range"};
+      "large", "all", "film", "camera", "light", "connection", "shared", "range", "ensemble"};
   return names[static_cast<size_t>(kind)];
 }
 
@@ -33,6 +33,7 @@ StepChooser::StepChooser(const StepMix& mix, unsigned streams, bool raster) {
   const auto at = [&](StepKind kind) -> double& { return p[static_cast<size_t>(kind)]; };
   at(StepKind::large) = mix.large;
   at(StepKind::range) = small * mix.range;
+  at(StepKind::ensemble) = small * mix.ensemble;
   if (raster) at(StepKind::film) = small * mix.film;
   const int used = std::popcount(streams & all_streams);
   // One stream alone is no different from all.
@@ -57,11 +58,19 @@ Step StepChooser::choose(uint32_t kind_bits, uint32_t range_bits) const {
   return make(StepKind::all, range_bits);
 }
 
+Step StepChooser::choose_small(uint32_t kind_bits, uint32_t range_bits) const {
+  const uint64_t large = ends_[static_cast<size_t>(StepKind::large)];
+  const uint64_t small = (uint64_t{1} << 32) - std::min(large, uint64_t{1} << 32);
+  if (small == 0) return make(StepKind::all, range_bits);
+  return choose(static_cast<uint32_t>(large + (kind_bits * small >> 32)), range_bits);
+}
+
 Step StepChooser::make(StepKind kind, uint32_t range_bits) {
   constexpr uint32_t blocks = blocks_per_vertex;
   switch (kind) {
     case StepKind::large:
     case StepKind::all:
+    case StepKind::ensemble:
       return {kind, all_streams};
     case StepKind::film:
       return {kind, 1u << static_cast<unsigned>(Stream::camera), 0, 1};

@@ -17,9 +17,10 @@ enum class StepKind : uint8_t {
   light,
   connection,
   shared,
-  range  // some vertices, in all streams
+  range,    // some vertices, in all streams
+  ensemble  // all numbers, by the difference of two other chains' states
 };
-inline constexpr int step_kinds = 8;
+inline constexpr int step_kinds = 9;
 std::string_view to_string(StepKind kind);
 
 struct Step {
@@ -32,10 +33,11 @@ struct Step {
 
 // Probabilities of the kinds; "all" gets what is left over.
 struct StepMix {
-  double large = 0.3;   // of all steps
-  double film = 0.0;    // of the small steps
-  double stream = 0.0;  // of the small steps, shared evenly by the streams in use
-  double range = 0.0;   // of the small steps
+  double large = 0.3;     // of all steps
+  double film = 0.0;      // of the small steps
+  double stream = 0.0;    // of the small steps, shared evenly by the streams in use
+  double range = 0.0;     // of the small steps
+  double ensemble = 0.0;  // of the small steps
 };
 
 // Chooses steps; made once the streams that the target reads at all are known, so that no step is
@@ -46,6 +48,8 @@ class StepChooser {
   StepChooser(const StepMix& mix, unsigned streams, bool raster);
   // Two random words decide.
   Step choose(uint32_t kind_bits, uint32_t range_bits) const;
+  // Of the small steps alone; "all" if there are none.
+  Step choose_small(uint32_t kind_bits, uint32_t range_bits) const;
 
  private:
   static Step make(StepKind kind, uint32_t range_bits);

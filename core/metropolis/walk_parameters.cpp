@@ -61,12 +61,14 @@ KernelChoice read_kernels(Parameters& p) {
   return choice;
 }
 
-void set_kernels(WalkSettings& walk, const KernelChoice& k, const ivec2& size) {
+void set_kernels(WalkSettings& walk, const KernelChoice& k, const ivec2& size,
+                 const StepFactors& factors) {
   const dvec2 edges(size);
   const double side = std::sqrt(edges.x * edges.y);
-  walk.kernel = Kernel(k.shape, k.scale);
-  walk.film_x = Kernel(k.shape, k.film_scale * side / edges.x);
-  walk.film_y = Kernel(k.shape, k.film_scale * side / edges.y);
+  for (size_t i = 0; i < step_kinds; ++i) walk.kernels[i] = Kernel(k.shape, k.scale * factors[i]);
+  const double film = k.film_scale * factors[static_cast<size_t>(StepKind::film)] * side;
+  walk.film_x = Kernel(k.shape, film / edges.x);
+  walk.film_y = Kernel(k.shape, film / edges.y);
 }
 
 }  // namespace pssmlt

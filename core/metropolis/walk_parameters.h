@@ -1,6 +1,8 @@
 // The parameters that samplers with Markov chains in primary sample space share.
 #pragma once
 
+#include <array>
+
 #include "core/metropolis/kernels.h"
 #include "core/metropolis/steps.h"
 #include "core/scene/parameters.h"
@@ -18,7 +20,11 @@ struct KernelChoice {
 StepMix read_step_mix(Parameters& parameters, float large = 0.3f);
 // "kernel", "sigma", "filmsigma".
 KernelChoice read_kernels(Parameters& parameters);
+// Of each kind of steps, times the scales that were chosen.
+using StepFactors = std::array<double, step_kinds>;
+inline constexpr StepFactors as_chosen = {1, 1, 1, 1, 1, 1, 1, 1, 1};
 // For a window of this size [pixels]: film steps have the same length in pixels along both axes.
-void set_kernels(struct WalkSettings& walk, const KernelChoice& choice, const ivec2& size);
+void set_kernels(struct WalkSettings& walk, const KernelChoice& choice, const ivec2& size,
+                 const StepFactors& factors = as_chosen);
 
 }  // namespace pssmlt

@@ -59,6 +59,20 @@ inline float time_number(PrimarySample& u, const Scene& scene) {
   return scene.time(u.numbers(Stream::shared, 0, 0).next());
 }
 
+// Which of several techniques makes the path: second half of the same block.
+struct TechniqueNumbers {
+  double length = 0.0;
+  float strategy = 0.f;
+};
+inline TechniqueNumbers technique_numbers(PrimarySample& u) {
+  Numbers n = u.numbers(Stream::shared, 0, 0);
+  n.next2();
+  TechniqueNumbers t;
+  t.length = n.next_double();
+  t.strategy = n.next();
+  return t;
+}
+
 // Position on the lens: third and fourth number of the camera's block 0.
 inline vec2 lens_numbers(PrimarySample& u) {
   Numbers n = u.numbers(Stream::camera, 0, 0);

@@ -13,7 +13,7 @@ SubpathTracer::SubpathTracer(const Scene& scene, const PathLimits& limits, Mis m
   camera_vertices_ = limits.max_bounces + (hittable ? 1 : 0);
 }
 
-void SubpathTracer::from_camera(PrimarySample& u, Subpath& path) const {
+void SubpathTracer::from_camera(PrimarySample& u, Subpath& path, int most) const {
   path.clear();
   const dvec2 raster = u.raster();
   const vec2 lens = lens_numbers(u);
@@ -23,11 +23,11 @@ void SubpathTracer::from_camera(PrimarySample& u, Subpath& path) const {
   path.start = *start;
   path.started = true;
   path.traits = scene_.camera().traits();
-  walk(u, {Stream::camera, Transport::radiance, nullptr, false, camera_vertices_},
+  walk(u, {Stream::camera, Transport::radiance, nullptr, false, std::min(most, camera_vertices_)},
        limits_.paths.from_camera(), path);
 }
 
-void SubpathTracer::from_light(PrimarySample& u, Subpath& path) const {
+void SubpathTracer::from_light(PrimarySample& u, Subpath& path, int most) const {
   path.clear();
   const EmissionNumbers n = emission_numbers(u);
   path.time = time_number(u, scene_);
@@ -45,7 +45,7 @@ void SubpathTracer::from_light(PrimarySample& u, Subpath& path) const {
   if (path.traits.infinite) path.start.from.normal = path.start.direction;
   walk(u,
        {Stream::light, Transport::importance, choice.light, path.traits.hittable(),
-        limits_.max_bounces},
+        std::min(most, limits_.max_bounces)},
        limits_.paths.from_light(light_letter(path.traits)), path);
 }
 

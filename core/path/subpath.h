@@ -1,6 +1,7 @@
 // Subpaths from either end of a path, with what bidirectional strategies need at every vertex.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -101,10 +102,12 @@ class SubpathTracer {
   // pick: how lights are drawn by the strategies that the weights of light subpaths know of.
   SubpathTracer(const Scene& scene, const PathLimits& limits, Mis mis,
                 LightPick pick = LightPick::power);
-  // Fills `path` from the camera's stream; reads the raster pair.
-  void from_camera(PrimarySample& u, Subpath& path) const;
+  // Fills `path` from the camera's stream, with no more than `most` scattering vertices; reads the
+  // raster pair.
+  void from_camera(PrimarySample& u, Subpath& path, int most = all) const;
   // Fills `path` from the light's stream. Needs at least one light.
-  void from_light(PrimarySample& u, Subpath& path) const;
+  void from_light(PrimarySample& u, Subpath& path, int most = all) const;
+  static constexpr int all = std::numeric_limits<int>::max();
   // Scattering vertices that from_camera and from_light make at most.
   int camera_vertices() const { return camera_vertices_; }
   int light_vertices() const { return limits_.max_bounces; }

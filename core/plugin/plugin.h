@@ -8,7 +8,7 @@
 namespace pssmlt {
 
 // Raised by hand whenever a header that plugins include changes its layout or meaning.
-inline constexpr int abi_version = 12;
+inline constexpr int abi_version = 13;
 
 class Integrator;
 class Sampler;

@@ -12,6 +12,8 @@ class PluginNamed {
   void name_plugin(const char* kind, const char* name) { kind_ = kind, name_ = name; }
   // `material "diffuse"`; "unnamed" if the registry did not make it.
   std::string plugin_name() const;
+  // Goes by another's name: it stands for it.
+  void take_name(const PluginNamed& other) { *this = other; }
 
  protected:
   ~PluginNamed() = default;

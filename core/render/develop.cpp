@@ -30,6 +30,7 @@ LayerScales::LayerScales(const Sampler& s, int64_t rounds)
       paired(s.pairs_groups()),
       sampler(&s) {
   for (int p = 0; p < planes; ++p) {
+    common.push_back(s.is_chain_plane(p));
     auto& scales = total.emplace_back();
     for (int subset = 0; subset < s.subsets(); ++subset) {
       scales.push_back(s.scale(p, subset, rounds));
@@ -178,6 +179,25 @@ std::vector<SplitImage> Developer::splits(SplitKind kind) const {
   return result;
 }
 
+double GroupBlocks::common_variance() const {
+  double mean = 0.0, deviation = 0.0;
+  for (const auto& row : means) {
+    for (const double value : row) mean += value / static_cast<double>(means.size());
+  }
+  for (const double block : common) deviation += block;
+  return mean > 0.0 ? sqr(deviation / mean) : 0.0;
+}
+
+// Layers have each a factor of their own; which blocks these move together is not told apart.
+void Developer::add_common(int layer, const std::vector<double>& pixels, Blocks& common) const {
+  const LayerScales& scales = layers_[static_cast<size_t>(layer)];
+  const Blocks part = common_part(film_, scales, layer);
+  for (size_t b = 0; b < pixels.size(); ++b) {
+    const double own = std::sqrt(scales.common_variance) * part[b] * picture_scale_ / pixels[b];
+    common[b] = std::hypot(common[b], own);
+  }
+}
+
 GroupBlocks Developer::group_blocks() const {
   const BlockGrid& grid = film_.blocks();
   GroupBlocks result;
@@ -185,14 +205,13 @@ GroupBlocks Developer::group_blocks() const {
   result.across = (film_.settings().size.x + grid.edge() - 1) / grid.edge();
   std::vector<double> pixels(static_cast<size_t>(grid.count()));
   for (int p = 0; p < film_.pixels(); ++p) pixels[static_cast<size_t>(grid.block(p))] += 1.0;
-  for (const LayerScales& l : layers_) {
-    result.common_variance = std::max(result.common_variance, l.common_variance);
-  }
+  result.common.assign(pixels.size(), 0.0);
   const bool paired =
       std::any_of(layers_.begin(), layers_.end(), [](const LayerScales& l) { return l.paired; });
   for (int l = 0; l < film_.layers(); ++l) {
     const std::vector<Replicate> own =
         layer_replicates(film_, layers_[static_cast<size_t>(l)], l, paired);
+    add_common(l, pixels, result.common);
     if (l == 0) result.means.assign(own.size(), std::vector<double>(pixels.size()));
     result.means.resize(std::min(result.means.size(), own.size()));
     for (size_t g = 0; g < result.means.size(); ++g) {
@@ -219,6 +238,13 @@ ErrorEstimate Developer::error() const {
   return estimate;
 }
 
+double Developer::common_variance(int layer) const {
+  const LayerScales& scales = layers_[static_cast<size_t>(layer)];
+  double sum = 0.0;
+  for (const double block : common_part(film_, scales, layer)) sum += block;
+  return scales.common_variance * sqr(sum * picture_scale_ / film_.pixels());
+}
+
 void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
   double variance = 0.0, uncertain = 0.0;
   int least = group_count;
@@ -235,7 +261,7 @@ void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
     least = std::min(least, m.groups);
     known = known && layer.group_samples() >= least_groups;
     estimate.mean += m.mean;
-    variance += m.variance + layer.common_variance * m.mean * m.mean;
+    variance += m.variance + common_variance(l);
     if (m.groups > 1) uncertain += m.variance * m.variance / (m.groups - 1.0);
   }
   estimate.mean_known = known && least >= least_groups;
@@ -252,9 +278,9 @@ void Developer::estimate_picture_mean(ErrorEstimate& estimate) const {
 void Developer::estimate_pixels(ErrorEstimate& estimate) const {
   bool correlated = false;
   double common = 0.0;
-  for (const LayerScales& l : layers_) {
-    correlated = correlated || l.correlated;
-    common = std::max(common, l.common_variance);
+  for (int l = 0; l < film_.layers(); ++l) {
+    correlated = correlated || layers_[static_cast<size_t>(l)].correlated;
+    if (estimate.mean > 0.0) common += common_variance(l) / sqr(estimate.mean);
   }
   // Where errors of neighbours are correlated a block is one cell. Otherwise a pixel is.
   const BlockGrid& grid = film_.blocks();

@@ -21,7 +21,8 @@ struct LayerScales {
   std::vector<std::array<double, 2>> half;             // [plane][half]; 0: the half has nothing yet
   std::vector<std::array<double, group_count>> group;  // [plane][group]; 0: nothing yet
   double balance = 0.25;         // product of the halves' shares of the samples
-  double common_variance = 0.0;  // relative, of a factor common to all groups (b)
+  std::vector<bool> common;      // [plane] has a factor in common with all groups (b)
+  double common_variance = 0.0;  // relative, of that factor
   bool correlated = false;
   bool paired = false;  // Sampler::pairs_groups()
   std::string unknown;  // Sampler::unknown_error()
@@ -43,7 +44,11 @@ struct SplitImage {
 struct GroupBlocks {
   int edge = 16, across = 1;               // of a block [pixels]; blocks in a row
   std::vector<std::vector<double>> means;  // [estimate][block]
-  double common_variance = 0.0;            // relative, of a factor common to all groups (b)
+  // [block] standard deviation [W/(m^2 sr)] of what all estimates have in common (b), and all
+  // blocks together.
+  std::vector<double> common;
+  // Of the picture's mean, relative to its square.
+  double common_variance() const;
 };
 
 class Developer {
@@ -72,6 +77,10 @@ class Developer {
   dvec3 pixel(int p) const;
   dvec3 half_pixel(int p, int layer, int which) const;
   dvec3 variance_pixel(int p) const;
+  using Blocks = std::vector<double>;
+  void add_common(int layer, const std::vector<double>& pixels, Blocks& common) const;
+  // Variance of a layer's part of the picture's mean that its groups do not show.
+  double common_variance(int layer) const;
   void estimate_pixels(ErrorEstimate& estimate) const;
   void estimate_picture_mean(ErrorEstimate& estimate) const;
 

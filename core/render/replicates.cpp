@@ -80,4 +80,20 @@ std::vector<Replicate> layer_replicates(const Film& film, const LayerScales& sca
   return independent_groups(film, scales, layer, as_pairs ? 2 : 1);
 }
 
+std::vector<double> common_part(const Film& film, const LayerScales& s, int layer) {
+  Blocks sum(static_cast<size_t>(film.blocks().count()));
+  if (!(s.common_variance > 0.0)) return sum;
+  for (size_t p = 0; p < s.common.size(); ++p) {
+    if (!s.common[p]) continue;
+    for (size_t b = 0; b < sum.size(); ++b) {
+      double groups = 0.0;
+      for (int g = 0; g < group_count; ++g) {
+        groups += film.block_sum(layer, static_cast<int>(p), g, static_cast<int>(b));
+      }
+      sum[b] += s.total[p][0] * groups;
+    }
+  }
+  return sum;
+}
+
 }  // namespace pssmlt

@@ -23,4 +23,8 @@ struct Replicate {
 std::vector<Replicate> layer_replicates(const Film& film, const LayerScales& scales, int layer,
                                         bool as_pairs);
 
+// Sums over the pixels of each block, in units of the film, of the planes whose factor is common to
+// all groups (LayerScales::common).
+std::vector<double> common_part(const Film& film, const LayerScales& scales, int layer);
+
 }  // namespace pssmlt

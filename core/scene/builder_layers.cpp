@@ -70,14 +70,27 @@ Directive choose(const Directive& scene, const std::optional<std::string>& chose
   return d;
 }
 
-void drop_unknown(const std::vector<ParameterDoc>& docs, const std::string& kind, Directive& d,
-                  std::vector<std::string>& log) {
+// What the plugin that the scene names knows is none of the chosen one's, however near its name.
+bool knows(const std::string& kind, const std::string& plugin, const std::string& parameter) {
+  if (plugin.empty()) return false;
+  try {
+    const FoundPlugin found = Registry::instance().find(kind, plugin, {});
+    return std::ranges::any_of(describe(*found.descriptor),
+                               [&](const ParameterDoc& doc) { return doc.name == parameter; });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// written: the type in the scene.
+void drop_unknown(const std::vector<ParameterDoc>& docs, const std::string& kind,
+                  const std::string& written, Directive& d, std::vector<std::string>& log) {
   std::vector<std::string> names;
   for (const ParameterDoc& doc : docs) names.push_back(doc.name);
   std::erase_if(d.parameters, [&](const Parameter& p) {
     // What is nearly a known name is a slip of the pen, which check_all_read() tells.
-    const bool known =
-        std::ranges::find(names, p.name) != names.end() || !suggestion(p.name, names).empty();
+    const bool known = std::ranges::find(names, p.name) != names.end() ||
+                       (!suggestion(p.name, names).empty() && !knows(kind, written, p.name));
     if (!known) {
       log.push_back("the scene's parameter \"" + p.name + "\" does not apply to the chosen " +
                     owner_name(kind, d.type));
@@ -152,6 +165,7 @@ void log_alias(const std::string& kind, const FoundPlugin& found, std::vector<st
 
 // What the layer's integrator or sampler is made from.
 struct Choice {
+  std::string written;  // type in the scene
   Directive directive;
   FoundPlugin found;
   std::vector<ParameterDoc> docs;
@@ -180,7 +194,7 @@ void make_choice(const Directive& scene, const BuildOptions& options, SceneResol
   }
   Directive all = scene;
   all.type = layer.integrator_name;
-  drop_unknown(docs, "integrator", all, log);
+  drop_unknown(docs, "integrator", scene.type, all, log);
   apply_assignments(options.set, "integrator", docs, all);
   describe_settings("integrator", all, settings);
   layer.integrator_values = values_in_force(docs, all);
@@ -212,7 +226,8 @@ void make_sampler(Choice& c, const BuildOptions& options, SceneResolver& resolve
   log_alias("sampler", c.found, log);
   c.docs = describe(*c.found.descriptor);
   // An alias' parameters are another plugin's: what ours does not know is said, not refused.
-  if (options.sampler || !c.found.alias.empty()) drop_unknown(c.docs, "sampler", c.directive, log);
+  if (options.sampler || !c.found.alias.empty())
+    drop_unknown(c.docs, "sampler", c.written, c.directive, log);
   apply_assignments(options.set, "sampler", c.docs, c.directive);
   describe_settings("sampler", c.directive, settings);
   layer.sampler = make<Sampler>("sampler", c.found, c.directive, resolver);
@@ -226,6 +241,8 @@ Layer build_layer(const LayerDescription& description, const BuildOptions& optio
   layer.name = description.name;
   const bool named = options.integrator || !description.integrator.type.empty();
   Choice integrator, sampler;
+  integrator.written = description.integrator.type;
+  sampler.written = description.sampler.type;
   integrator.directive =
       choose(description.integrator, options.integrator, options.defaults.integrator);
   sampler.directive = choose(description.sampler, options.sampler, options.defaults.sampler);
@@ -245,7 +262,7 @@ Layer build_layer(const LayerDescription& description, const BuildOptions& optio
   log_alias("integrator", integrator.found, log);
   integrator.docs = describe(*integrator.found.descriptor);
   if (options.integrator || !integrator.found.alias.empty()) {
-    drop_unknown(integrator.docs, "integrator", integrator.directive, log);
+    drop_unknown(integrator.docs, "integrator", integrator.written, integrator.directive, log);
   }
   make_integrator(integrator, options, resolver, settings, layer);
   return layer;

@@ -26,11 +26,18 @@ bool covers(const Integrator& one, const Integrator& other, const SceneFeatures&
 
 }  // namespace
 
+// Leaves only those that are good, if any is.
+template <typename Good>
+void IntegratorChoice::keep_if_any(const Good& good) {
+  const auto is_good = [&](const Named& one) { return good(*one.integrator); };
+  if (std::ranges::none_of(all_, is_good)) return;
+  std::erase_if(all_, [&](const Named& one) { return !is_good(one); });
+}
+
 void IntegratorChoice::prepare(const Scene& scene) {
   for (const Named& one : all_) one.integrator->prepare(scene);
-  if (std::ranges::any_of(all_, [](const Named& one) { return one.integrator->fixed(); })) {
-    std::erase_if(all_, [](const Named& one) { return !one.integrator->fixed(); });
-  }
+  keep_if_any([](const Integrator& one) { return one.fixed(); });
+  keep_if_any([](const Integrator& one) { return !one.is_for_chains(); });
   std::ranges::stable_sort(all_, std::ranges::greater(),
                            [](const Named& one) { return classes_seen(*one.integrator); });
   const std::vector<Named> some = all_;
@@ -40,7 +47,7 @@ void IntegratorChoice::prepare(const Scene& scene) {
     });
   });
   if (all_.empty()) all_ = {some.front()};
-  chosen_ = 0;
+  choose(0);
 }
 
 // A workspace serves one integrator.

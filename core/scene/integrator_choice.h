@@ -12,7 +12,7 @@ namespace pssmlt {
 // Its samples are those of the one chosen. Alternatives are those of the integrators given that
 // miss nothing of the scene's light that another one finds, in the order of their numbers of
 // classes of paths, the most first; that one alone if they find different things, and never one
-// whose estimate changes between rounds, if another is left.
+// whose estimate changes between rounds, or that is made for chains, if another is left.
 class IntegratorChoice final : public Integrator {
  public:
   struct Named {
@@ -27,7 +27,10 @@ class IntegratorChoice final : public Integrator {
   bool splats_light() const override;
   const PathLimits& limits() const override { return chosen().limits(); }
   int alternatives() const override { return static_cast<int>(all_.size()); }
-  void choose(int alternative) override { chosen_ = static_cast<size_t>(alternative); }
+  void choose(int alternative) override {
+    chosen_ = static_cast<size_t>(alternative);
+    take_name(chosen());
+  }
   std::string alternative_name(int alternative) const override {
     return all_[static_cast<size_t>(alternative)].name;
   }
@@ -39,6 +42,8 @@ class IntegratorChoice final : public Integrator {
   void load(Archive& archive) override { chosen().load(archive); }
 
  private:
+  template <typename Good>
+  void keep_if_any(const Good& good);
   Integrator& chosen() const { return *all_[chosen_].integrator; }
   std::vector<Named> all_;
   size_t chosen_ = 0;

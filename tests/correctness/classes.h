@@ -22,6 +22,10 @@ std::shared_ptr<Kind> make_default(const std::string& kind, const std::string& n
 inline std::string sees(const std::string& integrator) {
   return make_default<Integrator>("integrator", integrator)->sees();
 }
+inline bool is_for_chains(const std::string& integrator) {
+  return make_default<Integrator>("integrator", integrator)->is_for_chains();
+}
+
 inline bool is_chain(const std::string& sampler) {
   return make_default<Sampler>("sampler", sampler)->is_chain();
 }

@@ -154,7 +154,7 @@ Shape "sphere" "float radius" 1
 // that split all paths add up sample by sample, whatever the weights.
 TEST(Integrators, PathClassesAddUp) {
   const std::string scene = room_with(std::string(lamp) + ball + sky + point);
-  for (const char* integrator : {"path", "light", "bdpt", "whitted"}) {
+  for (const char* integrator : {"path", "light", "bdpt", "multiplexed", "whitted"}) {
     const auto mean = [&](const std::string& paths) {
       return mean_of({scene, integrator, "independent", {"integrator.paths=" + paths}, 8});
     };
@@ -168,6 +168,7 @@ TEST(Integrators, PathClassesAddUp) {
   }
 }
 
+// Not `multiplexed`, whose numbers choose the length.
 TEST(Integrators, LengthsAddUp) {
   const std::string scene = room_with(std::string(lamp) + ball + sky + point);
   for (const char* integrator : {"path", "light", "bdpt", "whitted"}) {
@@ -191,7 +192,7 @@ TEST(Integrators, MaskAndCodeStayTogether) {
   const char* const classes[] = {"AE",      "IE",      "LDE",    "LDDE",  "LDS+E",
                                  "LS+DE",   "IS+E",    "AS+E",   "PS+E",  "PS+DE",
                                  "LS+DS+E", "PS+DS+E", "LD.*DE", "PD.*E", "PE"};
-  for (const char* integrator : {"path", "light", "bdpt", "whitted"}) {
+  for (const char* integrator : {"path", "light", "bdpt", "multiplexed", "whitted"}) {
     const BuiltScene built = build_text({scene, integrator, "independent"});
     const PathExpression mask(built.layers[0].integrator->sees());
     for (const char* one : classes) {
@@ -242,10 +243,21 @@ TEST(Integrators, SayWhatIsNotApplied) {
   EXPECT_THROW(build_text({"Integrator \"sppm\" \"integer maxdpeth\" 3 WorldBegin"}), Error);
 }
 
+// A name that is near one of the chosen sampler's is no slip if the scene's own sampler has it.
+TEST(Integrators, AnotherSamplersParametersAreNoSlips) {
+  const std::string scene = "Sampler \"sobol\" \"integer pixelsamples\" 4 WorldBegin";
+  const BuiltScene built = build_text({scene, "path", "pssmlt"});
+  EXPECT_TRUE(std::ranges::any_of(built.log, [](const std::string& line) {
+    return line.find("\"pixelsamples\" does not apply") != std::string::npos;
+  }));
+  const std::string slip = "Sampler \"sobol\" \"integer pilotsample\" 4 WorldBegin";
+  EXPECT_THROW(build_text({slip, "path", "pssmlt"}), Error);
+}
+
 TEST(Integrators, AnEmptyWorldIsBlack) {
   const std::string scene =
       "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\nWorldBegin\n";
-  for (const char* integrator : {"path", "light", "bdpt", "whitted"}) {
+  for (const char* integrator : {"path", "light", "bdpt", "multiplexed", "whitted"}) {
     EXPECT_EQ(mean_of({scene, integrator, "independent", {}, 4}), 0.0) << integrator;
     EXPECT_GT(mean_of({scene + sky, integrator, "independent", {}, 4}), -1.0) << integrator;
   }

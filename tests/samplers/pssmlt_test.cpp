@@ -43,14 +43,13 @@ double peaked_pixel(int p) {
 
 // With steps of every kind, unless `more` says otherwise.
 ParameterSet settings(const ParameterSet& more = {}) {
-  ParameterSet set = {test::integer("bootstrapsamples", 16000), test::integer("chains", 64)};
-  set.insert(set.end(), more.begin(), more.end());
-  const auto add = [&set](const char* name, float value) {
-    const auto same = [&](const auto& parameter) { return parameter.name == name; };
-    if (std::ranges::none_of(set, same)) set.push_back(test::number(name, value));
-  };
-  add("filmprobability", 0.1f);
-  add("streamprobability", 0.2f);
+  ParameterSet set = more;
+  for (const Parameter& p :
+       {test::integer("bootstrapsamples", 16000), test::integer("chains", 64),
+        test::number("filmprobability", 0.1f), test::number("streamprobability", 0.2f)}) {
+    const auto same = [&](const auto& parameter) { return parameter.name == p.name; };
+    if (std::ranges::none_of(more, same)) set.push_back(p);
+  }
   return set;
 }
 
@@ -91,7 +90,7 @@ Regions measure(ToyRender& render) {
 //  - the error that each render states is true: the sum of squared z-scores against chi-square,
 //  upper
 //    tail, each z^2 having the mean 31/29 of a squared Student t. Stated errors may be too large.
-void expect_right(const ParameterSet& more) {
+void expect_right(const ParameterSet& more, int rounds = 6) {
   std::array<double, 4> exact{};
   for (int p = 0; p < pixels; ++p) exact[region(p)] += peaked_pixel(p);
   const double exact_sum = exact[0] + exact[1] + exact[2] + exact[3];
@@ -102,7 +101,7 @@ void expect_right(const ParameterSet& more) {
   constexpr int seeds = 100;
   for (int seed = 0; seed < seeds; ++seed) {
     ToyRender render("pssmlt", settings(more), peaked, map, static_cast<uint64_t>(seed));
-    render.rounds(6);
+    render.rounds(rounds);
     const Regions r = measure(render);
     double sum = 0.0;
     for (size_t i = 0; i < 4; ++i) {
@@ -136,6 +135,50 @@ TEST(Pssmlt, IsRightWithGaussianStepsOfAllKinds) {
 TEST(Pssmlt, IsRightWithCauchyStepsAndOneKind) {
   expect_right({test::text("kernel", "cauchy"), test::number("filmprobability", 0.f),
                 test::number("streamprobability", 0.f)});
+}
+
+TEST(Pssmlt, IsRightWithDelayedRejection) {
+  expect_right({test::flag("delayedrejection", true)});
+  expect_right({test::flag("delayedrejection", true), test::text("weights", "kelemen")});
+}
+TEST(Pssmlt, IsRightWithTunedSteps) { expect_right({test::flag("tunesteps", true)}); }
+TEST(Pssmlt, IsRightWithTheEqualisedTarget) {
+  expect_right({test::text("target", "equalised")}, 10);
+}
+TEST(Pssmlt, IsRightWithStepsOfEnsembles) {
+  expect_right({test::number("ensembleprobability", 0.5f), test::integer("chains", 128)});
+}
+
+// Light 10 times as bright in one half of the picture: the relative errors of the two halves' sums,
+// from the groups. All credits adding up to the same, each half's error is the other's: 10 times as
+// large, relative to the dark half, if chains follow the luminance; 1.1 times if they follow what
+// relative errors are measured by (0.11 and 0.51 are the denominators of light of 0.1 and 1). The
+// limits are far from either.
+TEST(Pssmlt, TheEqualisedTargetGivesEvenRelativeErrors) {
+  const RasterMap map = test::box_map(width, height);
+  const auto f = [](PrimarySample& u, Splats& out) {
+    const bool dark = u.raster().x < width / 2;
+    out.camera(Rgb((dark ? 0.1f : 1.f) * (0.5f + u.numbers(Stream::camera, 1).next())), {});
+  };
+  const auto ratio = [&](const char* target) {
+    ToyRender render("pssmlt",
+                     {test::text("target", target), test::integer("bootstrapsamples", 4000),
+                      test::integer("chains", 512)},
+                     f, map, 3);
+    render.rounds(40);
+    std::array<MeanTally, 2> halves;
+    for (int g = 0; g < group_count; ++g) {
+      std::array<double, 2> sums{};
+      for (int p = 0; p < pixels; ++p) {
+        sums[p % width < width / 2 ? 0 : 1] += render.film().sum(0, p, g);
+      }
+      for (size_t i = 0; i < 2; ++i) halves[i].add(sums[i]);
+    }
+    const auto relative = [](const MeanTally& t) { return t.standard_error() / t.mean(); };
+    return relative(halves[0]) / relative(halves[1]);
+  };
+  EXPECT_LT(std::abs(std::log(ratio("equalised"))), std::log(2.0));
+  EXPECT_GT(ratio("luminance"), 5.0);
 }
 
 // An island that 12 of 12000 candidates find on average holds half the light and lights the first

@@ -48,9 +48,14 @@ Outcome few_contributing(const ProbeContext& context, double radius) {
 
 Outcome no_large_steps(const ProbeContext& context) {
   Outcome outcome;
-  if (!has_parameter("sampler", context.pair.sampler, "largestepprobability")) {
+  const auto has = [&](const char* name) {
+    return has_parameter("sampler", context.pair.sampler, name);
+  };
+  if (!has("largestepprobability") || !has("bootstrapsamples")) {
     outcome.verdict = Verdict::cannot_see;
-    outcome.reason = context.pair.sampler + " has no large steps";
+    outcome.reason =
+        context.pair.sampler +
+        (has("largestepprobability") ? " starts chains anew all the time" : " has no large steps");
     return outcome;
   }
   Job job{.scene = lab({.height = 32}),  // four blocks, the fewest that regions are told of

@@ -39,6 +39,8 @@ Case field_of_view() {
   Case c = in_room("fov", "field of view [degrees] in a room: closed form");
   for (const double fov : {.01, 179.9, .1, 179.0, 60.0}) {
     add(c, fmt::format("{}", fov), film(16, 16), "", perspective(fov), fov < 1.0);
+    // Of light subpaths hardly any lands in the middle, where a pixel is as wide as the room.
+    if (fov > 170.0) c.points.back().demand = .25;
   }
   return c;
 }

@@ -57,6 +57,9 @@ MediumInterface "cloud" ""
 Shape "sphere" "float radius" 1)";
 }
 
+// Of a thousand scattering events a path and more: ten per cent would take minutes with each pair.
+constexpr double demand_of_walks = .25;
+
 Case white_cloud(const std::string& name, const std::string& about, double demand,
                  const std::vector<std::pair<std::string, std::string>>& media) {
   Case c{.group = 7,
@@ -145,6 +148,9 @@ void add_media_cases(Cases& cases) {
   cases.push_back(
       white_cloud("white-grid", "spikes of a grid between zeros, in a white sky: 1", .1, grids));
   cases.push_back(half_space());
+  const auto clouds = cases.end() - 4;
+  clouds->points[1].demand = demand_of_walks;  // 10^4
+  for (auto c = clouds; c != cases.end(); ++c) c->points.front().demand = demand_of_walks;
 }
 
 }  // namespace pssmlt::stress

@@ -21,6 +21,7 @@ double normal(RandomStream& random) {
 GroupBlocks noise(RandomStream& random, size_t blocks, double common, double factor = 1.0) {
   GroupBlocks g;
   g.across = 4;
+  g.common.assign(blocks, 0.0);
   for (int i = 0; i < 32; ++i) {
     auto& row = g.means.emplace_back();
     const double shared = normal(random);
@@ -66,7 +67,7 @@ TEST(Agreement, ErrorOfBIsNoBias) {
   RandomStream random(4, RandomUse::test);
   const GroupBlocks a = noise(random, 40, 0.0);
   GroupBlocks b = noise(random, 40, 0.0, 0.94);
-  b.common_variance = 0.06 * 0.06;
+  b.common.assign(40, 0.06 * 0.94);
   EXPECT_GT(*test_agreement(a, b, "a", "b").p_value, 0.01);
 }
 

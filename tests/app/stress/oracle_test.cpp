@@ -14,6 +14,7 @@ constexpr double false_alarm = 1e-9;
 Blocks noisy_blocks(double mean, double error, uint64_t seed) {
   Blocks blocks;
   blocks.values.assign(5, std::vector<double>(32, 0.0));
+  blocks.common.assign(5, 0.0);
   RandomStream random(seed, RandomUse::test);
   for (size_t g = 0; g < 32; ++g) {
     for (size_t b = 0; b < 4; ++b) {
@@ -44,6 +45,7 @@ TEST(StressOracle, MeansAreTestedBlockByBlock) {
 TEST(StressOracle, RoundingDoesNotCount) {
   Blocks exact;
   exact.values.assign(2, std::vector<double>(32, 1.0005));
+  exact.common.assign(2, 0.0);
   const double one[] = {1.0};
   EXPECT_TRUE(compare_means(exact, one, 1e-3, false_alarm).holds);
   EXPECT_FALSE(compare_means(exact, one, 1e-4, false_alarm).holds);
@@ -67,7 +69,7 @@ TEST(StressOracle, WhatIsCommonToAllGroupsWidensTheTolerance) {
   Blocks blocks = noisy_blocks(1.1, .05, 6);
   const double ones[] = {1.0, 1.0, 1.0, 1.0};
   EXPECT_FALSE(compare_means(blocks, ones, 0.0, false_alarm).holds);
-  blocks.common_variance = 1e-3;
+  blocks.common.assign(5, .035);
   EXPECT_TRUE(compare_means(blocks, ones, 0.0, false_alarm).holds);
 }
 

@@ -57,7 +57,7 @@ TEST(Pilot, KeepsOrderWhenPartsAreAppended) {
   EXPECT_EQ(all.splats(2)[1].raster, vec2(1.5f, 0.5f));
   EXPECT_FLOAT_EQ(all.sample(2).camera, 2.f);
   EXPECT_EQ(all.sample(3).cell, 1u);
-  EXPECT_EQ(all.sample(3).half, 1u);
+  EXPECT_EQ(all.sample(3).half(), 1u);
 }
 
 }  // namespace

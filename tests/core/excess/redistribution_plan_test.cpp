@@ -30,7 +30,7 @@ RedistributionOption chosen(const RelativePilot& pilot,
                             const RedistributionPlanSettings& settings = {}) {
   RedistributionOption option;
   option.rays = 2.0;
-  choose_redistribution(pilot, settings, option);
+  choose_redistribution(pilot, pilot, settings, {SpreadRemainder({.3, .1, .05}), 2.0}, option);
   return option;
 }
 
@@ -47,7 +47,42 @@ TEST(RedistributionPlan, SpreadsOutliers) {
   EXPECT_GT(o.mutations, 0.0);
   EXPECT_LT(o.threshold, 2000.0);
   EXPECT_LT((1.0 + o.mutations) * o.variance, o.plain);
+  EXPECT_EQ(o.effort(), 2.0 * (1.0 + o.mutations) * o.variance);
   EXPECT_NEAR(o.deposit, o.excess * o.length / o.mutations, 1e-9 * o.deposit);
+}
+
+// Chains that do not move are worth nothing.
+TEST(RedistributionPlan, LeavesOutliersThatChainsDoNotSpread) {
+  RedistributionOption option;
+  option.rays = 2.0;
+  const RelativePilot pilot = outliers(500.0, 2000.0);
+  choose_redistribution(pilot, pilot, {}, {SpreadRemainder({1.0, 1.0, 1.0}), 2.0}, option);
+  EXPECT_EQ(option.mutations, 0.0);
+}
+
+// What the deep pilot did not meet counts all the same.
+TEST(RedistributionPlan, LearnsOfOutliersFromTheWidePilot) {
+  RedistributionOption option;
+  option.rays = 2.0;
+  choose_redistribution(outliers(1.0, 1.0), outliers(500.0, 2000.0), {},
+                        {SpreadRemainder({.3, .1, .05}), 2.0}, option);
+  EXPECT_GT(option.mutations, 0.0);
+  EXPECT_GT(option.plain, 2000.0 * 2000.0 / 500.0 * .5);
+}
+
+TEST(SpreadRemainder, FollowsWhatWasMeasured) {
+  const SpreadRemainder r({.4, .2, .1});
+  EXPECT_EQ(r.at(1.0), 1.0);
+  EXPECT_NEAR(r.at(20.0), .4, 1e-12);
+  EXPECT_NEAR(r.at(100.0), .2, 1e-12);
+  EXPECT_NEAR(r.at(500.0), .1, 1e-12);
+  EXPECT_NEAR(r.at(2500.0), .05, 1e-12);
+  EXPECT_NEAR(r.at(1e9), .025, 1e-12);
+  for (double m = 1.0; m < 1e5; m *= 1.3) EXPECT_GE(r.at(m), r.at(1.3 * m)) << m;
+  // Noise that rises does not count, nor what is worse than nothing.
+  const SpreadRemainder noisy({1.5, .2, .3});
+  EXPECT_EQ(noisy.at(20.0), 1.0);
+  EXPECT_NEAR(noisy.at(500.0), .2, 1e-12);
 }
 
 TEST(RedistributionPlan, DoesWhatItIsTold) {

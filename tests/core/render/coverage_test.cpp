@@ -36,7 +36,7 @@ bool holds(const GroupBlocks& g, size_t block, double truth) {
   double mean = 0.0, variance = 0.0;
   for (const auto& row : g.means) mean += row[block] / n;
   for (const auto& row : g.means) variance += std::pow(row[block] - mean, 2) / (n * (n - 1.0));
-  variance += g.common_variance * mean * mean;
+  variance += g.common[block] * g.common[block];
   return std::abs(mean - truth) <= student_quantile(n - 1.0) * std::sqrt(variance);
 }
 

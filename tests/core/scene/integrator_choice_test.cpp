@@ -13,7 +13,8 @@ namespace {
 template <int number>
 class Toy final : public Integrator {
  public:
-  Toy(std::string sees, bool fixed) : sees_(std::move(sees)), fixed_(fixed) {}
+  Toy(std::string sees, bool fixed, bool for_chains)
+      : sees_(std::move(sees)), fixed_(fixed), for_chains_(for_chains) {}
   void prepare(const Scene&) override {}
   void sample(PrimarySample&, Splats& out, Workspace& workspace) const override {
     struct Mine {
@@ -27,16 +28,17 @@ class Toy final : public Integrator {
   bool splats_light() const override { return number == 1; }
   const PathLimits& limits() const override { return limits_; }
   bool fixed() const override { return fixed_; }
+  bool is_for_chains() const override { return for_chains_; }
 
  private:
   std::string sees_;
-  bool fixed_;
+  bool fixed_, for_chains_;
   PathLimits limits_;
 };
 
 template <int number>
-IntegratorChoice::Named toy(const std::string& sees, bool fixed = true) {
-  return {"toy" + std::to_string(number), std::make_shared<Toy<number>>(sees, fixed)};
+IntegratorChoice::Named toy(const std::string& sees, bool fixed = true, bool for_chains = false) {
+  return {"toy" + std::to_string(number), std::make_shared<Toy<number>>(sees, fixed, for_chains)};
 }
 
 std::vector<std::string> names(const IntegratorChoice& choice) {
@@ -86,6 +88,16 @@ TEST(IntegratorChoice, LeavesOutEstimatesThatChange) {
   only.prepare(*built.scene);
   EXPECT_EQ(names(only), (Names{"toy1"}));
   EXPECT_FALSE(only.fixed());
+}
+
+TEST(IntegratorChoice, LeavesOutWhatIsMadeForChains) {
+  const BuiltScene built = lamp();
+  IntegratorChoice some({toy<1>("L.*E", true, true), toy<2>("L.*E")});
+  some.prepare(*built.scene);
+  EXPECT_EQ(names(some), (Names{"toy2"}));
+  IntegratorChoice only({toy<1>("L.*E", true, true)});
+  only.prepare(*built.scene);
+  EXPECT_EQ(names(only), (Names{"toy1"}));
 }
 
 // Each has a workspace of its own, and keeps it while others are asked.
