@@ -23,7 +23,6 @@ constexpr std::array<std::string_view, 2> weight_names = {"expected", "kelemen"}
 constexpr int candidates_a_unit = 1024;
 constexpr int64_t most_mutations_a_round = 1 << 18;
 constexpr int64_t least_stretch = 16;  // mutations of a chain in a round
-constexpr int least_chains_for_ensembles = 3 * group_count;
 
 }  // namespace
 
@@ -62,7 +61,7 @@ PopulationSettings read_population(Parameters& p, int bootstrap_samples) {
     p.fail("ensembleprobability",
            "\"ensembleprobability\" must not be negative nor exceed 1 with those of other steps");
   }
-  if (s.mix.ensemble > 0.0 && s.chains != 0 && s.chains < least_chains_for_ensembles) {
+  if (s.mix.ensemble > 0.0 && s.chains != 0 && s.chains < 3 * group_count) {
     p.fail("chains", "\"ensembleprobability\" needs at least 96 \"chains\", three in a group");
   }
   if (!(s.ensemble_scale >= 0.0 && s.ensemble_scale <= 1.0)) {

@@ -73,6 +73,7 @@ class ChainPopulation {
 
  private:
   static constexpr int chains_a_unit = 8;
+  static constexpr int least_chains_for_ensembles = 3 * group_count;
   void plan(const RasterFrame& frame, double mutations_a_round);
   void bootstrap(const SamplerContext& context);
   void start_chains(const SamplerContext& context);

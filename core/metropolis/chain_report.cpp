@@ -29,6 +29,10 @@ std::vector<std::string> ChainPopulation::warnings() const {
                      "\"largestepprobability\" is 0: no chain gets where small steps do not "
                      "lead, b is the bootstrap's alone, and neither shows in the estimated error");
   }
+  if (settings_.mix.ensemble > 0.0 && chain_count_ < least_chains_for_ensembles) {
+    result.push_back(sampler + "only " + std::to_string(chain_count_) +
+                     " chains: no group has three, and steps by other chains' states lead nowhere");
+  }
   return result;
 }
 

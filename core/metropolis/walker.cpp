@@ -56,17 +56,16 @@ RandomBlock Walker::random(RandomUse use, uint32_t what) const {
 
 const Step& Walker::propose() {
   const RandomBlock bits = random(RandomUse::decide, 0);
-  step_ = chooser_.choose(bits[0], bits[1]);
-  accept_bits_ = bits[2];
-  accept_more_ = bits[3];
-  if (step_.kind == StepKind::ensemble) choose_mates();
-  owner_.begin_proposal(*this, step_.streams);
-  return step_;
+  return begin(chooser_.choose(bits[0], bits[1]), bits);
 }
 
 const Step& Walker::propose_again() {
   const RandomBlock bits = random(RandomUse::decide_again, 0);
-  step_ = chooser_.choose_small(bits[0], bits[1]);
+  return begin(chooser_.choose_small(bits[0], bits[1]), bits);
+}
+
+const Step& Walker::begin(const Step& step, const RandomBlock& bits) {
+  step_ = step;
   accept_bits_ = bits[2];
   accept_more_ = bits[3];
   if (step_.kind == StepKind::ensemble) choose_mates();

@@ -88,6 +88,7 @@ class Walker final : public NumberSource {
  private:
   RandomBlock random(RandomUse use, uint32_t what) const;
   void move(const NumberBlock& from, bool film, const RandomBlock& bits, NumberBlock& block) const;
+  const Step& begin(const Step& step, const RandomBlock& bits);
   void choose_mates();
   NumberBlock moved_by_mates(const NumberBlock& from, uint32_t what) const;
   Transition settle(double acceptance, double value);
