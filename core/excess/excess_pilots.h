@@ -19,10 +19,10 @@ struct ExcessPilots {
   std::vector<Seeded> wide, deep;  // one for each alternative
 };
 // Two pilots for each alternative: a wide one of few samples in every pixel (one of several, on
-// large pictures) for the local means, and a deep one of many samples in few pixels, since Sobol'
-// points show what they are worth only in numbers. pilot_samples: of each pilot, about; 0: by the
-// picture's size. Counts decide and not the clock: a function of the seed. Leaves the integrator's
-// last alternative chosen.
+// large pictures) for the local means, and a deep one of many samples in few pixels
+// (deep_pixels), since Sobol' points show what they are worth only in numbers. pilot_samples: of
+// each pilot, about; 0: by the picture's size. Counts decide and not the clock: a function of the
+// seed. Leaves the integrator's last alternative chosen.
 ExcessPilots run_excess_pilots(const SamplerContext& context, uint64_t seed, int pilot_samples,
                                int deep_pixels = 2048);
 

@@ -37,7 +37,7 @@ class RelativePilot {
   // chain are worth one independent sample of what it follows.
   struct Variances {
     double below = 0.0, above = 0.0;
-    double below_error = 0.0;   // standard error of V1 by the largest of its squares
+    double below_error = 0.0;   // standard error of V1, were samples independent
     double excess = 0.0;        // mean of what is cut off [local means]
     uint64_t contributing = 0;  // samples above T
     double total() const { return sqr(std::sqrt(below) + std::sqrt(above)); }

@@ -22,11 +22,12 @@ struct RedistributionSettings {
 };
 
 // A sample whose target is worth e gives e / deposit chains on average, never more than
-// most_chains, of a fixed length; each visit of a state with target F is credited F's splats times
-// what the chain carries over (length F). Since chains start in proportion to the target, every
-// state's expected credit is the target's own whatever the length: no normalisation is needed, and
-// chains that do not move leave the picture as noisy as it was, never worse. (e / chains is carried
-// where there are at least that many; else 1 / probability times as much by the few that are run.)
+// chains_of(length), of a fixed length; each visit of a state with target F is credited F's splats
+// times what the chain carries over (length F). Since chains start in proportion to the target,
+// every state's expected credit is the target's own whatever the length: no normalisation is
+// needed, and chains that do not move leave the picture as noisy as it was, never worse. (e /
+// chains is carried where there are at least that many; else 1 / probability times as much by the
+// few that are run.)
 class Redistribution {
  public:
   explicit Redistribution(const RedistributionSettings& settings) : settings_(settings) {}

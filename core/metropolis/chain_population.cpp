@@ -61,7 +61,7 @@ PopulationSettings read_population(Parameters& p, int bootstrap_samples) {
     p.fail("ensembleprobability",
            "\"ensembleprobability\" must not be negative nor exceed 1 with those of other steps");
   }
-  if (s.mix.ensemble > 0.0 && s.chains != 0 && s.chains < 3 * group_count) {
+  if (s.mix.ensemble > 0.0 && s.chains != 0 && s.chains < least_chains_for_ensembles) {
     p.fail("chains", "\"ensembleprobability\" needs at least 96 \"chains\", three in a group");
   }
   if (!(s.ensemble_scale >= 0.0 && s.ensemble_scale <= 1.0)) {

@@ -16,6 +16,9 @@
 
 namespace pssmlt {
 
+// Three in each group: steps "ensemble" use two others of the same.
+inline constexpr int least_chains_for_ensembles = 3 * group_count;
+
 struct PopulationSettings {
   StepMix mix;
   KernelChoice kernels;
@@ -73,7 +76,6 @@ class ChainPopulation {
 
  private:
   static constexpr int chains_a_unit = 8;
-  static constexpr int least_chains_for_ensembles = 3 * group_count;
   void plan(const RasterFrame& frame, double mutations_a_round);
   void bootstrap(const SamplerContext& context);
   void start_chains(const SamplerContext& context);
